@@ -14,6 +14,7 @@
 #include "core/hash.h"
 #include "core/progress.h"
 #include "core/text.h"
+#include "raster/ffmpeg/audio_file.h"
 #include "study/build/workers.h"
 #include "study/clip/film.h"
 #include "study/design/mismatch.h"
@@ -241,6 +242,16 @@ std::vector<double> lengths_of_clips(const MotionsOfClips& motions) {
     return longest;
 }
 
+// Whole sounds are heard to their end, and then by the clips that are mismatched with them, too.
+void cover_sounds(const Plan& plan, std::vector<double>& lengths) {
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+        const PlanClip& clip = plan.clips[i];
+        if (clip.cut) continue;
+        for (const fs::path& file : {clip.audio, clip.partner ? clip.partner->audio : fs::path()})
+            if (!file.empty()) lengths[i] = std::max(lengths[i], read_audio(file).duration());
+    }
+}
+
 // The motions of a video, which are not read twice.
 ClipMotions motions_of(const MotionsOfClips& known, const VideoWish& wish, const Sources& sources,
                        const ClipJob& job, const ClipMaker& maker) {
@@ -276,7 +287,8 @@ fs::path recording_note(const fs::path& folder, const Video& video) {
 std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& wishes, std::uint64_t seed,
                                const ClipMaker& maker) {
     const MotionsOfClips motions = read_motions_of_clips(plan, maker);
-    const std::vector<double> lengths = lengths_of_clips(motions);
+    std::vector<double> lengths = lengths_of_clips(motions);
+    if (has_mismatch(plan)) cover_sounds(plan, lengths);
     const std::vector<std::size_t> other = draw_others(plan, lengths, seed);
     std::vector<Faces> faces(plan.clips.size());
     std::vector<Video> videos;
@@ -289,8 +301,8 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
         video.job.at_least = lengths[wish.clip];
         // A pose that is held, or speech that is missing at the end, would reveal the mismatched condition.
         const double shown = std::min(lengths[wish.clip], lengths[other[wish.clip]]);
-        if (shown < lengths[wish.clip])
-            video.job.frames.last = static_cast<std::size_t>(shown * plan.render.fps.per_second());
+        if (has_mismatch(plan))
+            video.job.frames.last = static_cast<std::size_t>(shown * plan.render.fps.per_second() + 1e-6);
         if (wish.notice) add_notice(plan, *wish.notice, shown, video.job);
         video.recipe = sha256(maker.recipe(video.job).dump());
         videos.push_back(std::move(video));

@@ -73,7 +73,8 @@ Soundtrack soundtrack_of_voices(const Performer& left_person, const Performer& r
 void fit_to_picture(Soundtrack& track, const ClipJob& job, double seconds) {
     const double missing = seconds - track.sound->duration();
     track.sound = trim_to(*track.sound, seconds);
-    if (std::abs(missing) <= job.fps.seconds(1)) return;
+    const bool is_meant = job.at_least && missing < 0;  // speech of another clip, which is longer
+    if (is_meant || std::abs(missing) <= job.fps.seconds(1)) return;
     const std::string name = job.audio ? job.audio->string() : "the voices";
     track.warnings.push_back(
         missing > 0
@@ -124,11 +125,13 @@ void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const Fra
                            job.spoken->text));
     }
     if (!track.sound) return;
-    const double seconds = job.fps.seconds(frames);
+    // A condition of a study ends where the shortest one does, and its sound as it would with a cut.
+    const bool ends_early = job.at_least && *range.last < frames;
+    const double seconds = job.fps.seconds(ends_early ? *range.last : frames);
     if (picture_decides(job)) {
         fit_to_picture(track, job, seconds);
     } else {
-        track.sound = fit_to(*track.sound, seconds);
+        track.sound = ends_early ? trim_to(*track.sound, seconds) : fit_to(*track.sound, seconds);
     }
     if (job.spoken) track.sound = speak_over(*track.sound, *job.spoken);
     track.sound = part_of(*track.sound, range, job.fps);

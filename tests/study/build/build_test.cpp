@@ -11,12 +11,14 @@
 
 #include <set>
 
+#include "core/files/wav_file.h"
 #include "core/text.h"
 #include "study/build/study_files.h"
 #include "study/build/workers.h"
 #include "tests/study/fake_maker.h"
 #include "tests/study/limits.h"
 #include "tests/study/sample_plan.h"
+#include "tests/study/sounds.h"
 #include "tests/support/support.h"
 
 namespace chironomia::study {
@@ -279,6 +281,7 @@ TEST_F(BuildStudy, MakesTheJobsThatTheConditionsSay) {
     json_["checks"] = {{"count", 2}, {"kinds", {"text", "audio"}}, {"instruction", "Press {answer}"}};
     write_text(folder_ / "base/c1.bvh", std::string("\0\0\0\x20", 4) + "ftypisom film");
     fake_.lengths = {{"ours/c2.bvh", 1.9}, {"base/c2.bvh", 1.9}};
+    for (const char* name : {"c1.wav", "c2.wav"}) write_wav(folder_ / name, testing::sine({.seconds = 1.9}));
     const Plan read = plan();
     std::size_t texts = 0, voices = 0;
     for (const Video& video : draft_study(read, 1, fake_.maker()).videos) {
@@ -295,13 +298,29 @@ TEST_F(BuildStudy, MakesTheJobsThatTheConditionsSay) {
         EXPECT_EQ(!agent.film.empty(), condition == 1 && clip == 0);
         EXPECT_EQ(agent.anchor.has_value(), condition == 2);
         // The longer clip ends with the shorter one, in all conditions.
-        EXPECT_EQ(video.job.frames.last, clip == 0 ? std::optional<std::size_t>(57) : std::nullopt);
+        EXPECT_EQ(video.job.frames.last, 57u);
         texts += video.job.notice.has_value();
         voices += video.job.spoken.has_value();
         EXPECT_EQ(video.job.notice || video.job.spoken, video.shows.notice.has_value());
     }
     EXPECT_EQ(texts, 1u);
     EXPECT_EQ(voices, 1u);
+}
+
+// Sounds that are longer than the motions are heard with them, and motions that are longer than others shown with theirs.
+TEST_F(BuildStudy, EndsAllVideosOfAMismatchedClipTogether) {
+    fake_.lengths = {{"ours/c1.bvh", 1.8}, {"base/c1.bvh", 1.9}, {"ours/c2.bvh", 2.1}, {"base/c2.bvh", 2.0}};
+    write_wav(folder_ / "c1.wav", testing::sine({.seconds = 2.2}));
+    write_wav(folder_ / "c2.wav", testing::sine({.seconds = 2.05}));
+    for (const char* kind : {"speech", "motion"}) {
+        json_["mismatched"] = kind;
+        const StudyDraft draft = draft_study(plan(), 1, fake_.maker());
+        EXPECT_THAT(draft.videos, SizeIs(8));
+        for (const Video& video : draft.videos) {
+            EXPECT_DOUBLE_EQ(*video.job.at_least, video.shows.clip == 0 ? 2.2 : 2.1);
+            EXPECT_EQ(video.job.frames.last, 63u);
+        }
+    }
 }
 
 // Before anything is drawn.

@@ -223,6 +223,20 @@ TEST_F(Soundtracks, TakeTheirOwnPartAndAreSilentWhereItEnds) {
         ElementsAre(HasSubstr("a.wav: there is sound for 0.500 s of 1.000 s; 0.500 s of silence are added")));
 }
 
+// Otherwise the end of the sound would say which condition is matched with its speech.
+TEST_F(Soundtracks, FadeOutWhereverAConditionOfAStudyEndsEarly) {
+    for (const std::optional<Cut>& cut : {std::optional<Cut>(), std::optional(Cut{})}) {
+        job_.sound_cut = cut;
+        job_.at_least = 2.0;
+        Soundtrack track = read_soundtrack(job_);
+        finish(track, job_, 20, {.first = 0, .last = 15});
+        EXPECT_EQ(track.sound->length(), 1500u);
+        EXPECT_EQ(track.sound->samples[1480], 0.0001f * 1480);
+        EXPECT_LT(track.sound->samples[1499], 0.01f * 0.15f);
+        EXPECT_THAT(track.warnings, ElementsAre());
+    }
+}
+
 TEST_F(Soundtracks, WarnOfAFilmWhoseSoundBeginsAfterItsPictures) {
     const auto film = [&](const std::string& name, const std::string& late) {
         testing::output_of("ffmpeg -nostdin -v error -f lavfi -i color=s=64x64:r=10:d=1 -itsoffset " + late +
