@@ -166,6 +166,16 @@ TEST_P(JspsychPage, LetsAParticipantAnswerAllInTheFormOfTheContract) {
     EXPECT_EQ(server::fault_of_questionnaire(study.pages, answers["questionnaire"]), "");
 }
 
+TEST_P(JspsychPage, FitsAPhone) {
+    testing::TemporaryFolder profile;
+    Browser browser(profile.path());
+    browser.resize(390, 844);
+    browser.open("file://" + sample_.open("index.html").string() + "?sheet=0");
+    ASSERT_TRUE(browser.wait_for(
+        "document.querySelector('video') !== null || (document.querySelector('button')?.click(), false)"));
+    EXPECT_LE(browser.evaluate("document.documentElement.scrollWidth").get<int>(), 390);
+}
+
 INSTANTIATE_TEST_SUITE_P(Layouts, JspsychPage,
                          ::testing::Values(SampleStudy{.layout = "pair", .sheets = 2},
                                            SampleStudy{.layout = "single", .sheets = 2},
