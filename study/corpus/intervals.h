@@ -19,7 +19,8 @@ struct CutIntervals {
 };
 
 // The intervals of one recording go to `keep` one by one, each with the second of the recording at which it begins, so
-// that long recordings need little memory. Throws Error as the readers do, if pose and sound are not equally long, and as pose_in() does.
+// that long recordings need little memory. Throws Error as the readers do, if pose and sound are not equally long, and
+// as pose_in() does.
 CutIntervals cut_intervals(const IntervalRecording& recording, const ImportManifest& manifest,
                            const TextEncoder& encoder,
                            const std::function<void(const IntervalRecord&, double)>& keep);
