@@ -22,8 +22,8 @@ struct MotionMeasures {
     std::vector<std::string> notes{};  // what was resampled, cut or left out
 };
 
-// Each by itself, at the lowest of their rates; at least one motion. Of the body: velocity, acceleration and jerk of the
-// points that all motions with a body have, and of the wrists, the perimeter of their box from the front and their
+// Each by itself, at the lowest of their rates; at least one motion. Of the body: velocity, acceleration and jerk of
+// the points that all motions with a body have, and of the wrists, the perimeter of their box from the front and their
 // extent, in widths of the shoulders where both are known, else in the file's unit, relative to the neck, or to the
 // middle of the shoulders if one has no neck. Of the face: how much each unit is active, how fast the head turns.
 std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions);

@@ -13,8 +13,8 @@ constexpr Vec3 kSolarPlexus{0, 0.15f, 0};  // gesture space [arm lengths]
 constexpr float kLongestReach = 0.98f;     // of the arm
 constexpr double kRelaxGain = 0.5;         // of the way to the relaxed hand at power -1
 constexpr double kSwivelGain = 0.5;
-// The middle of the agent's face, and how far from it a point of a hand's middle still hides some of it: half of the face
-// and half of a palm. Ours. [m]
+// The middle of the agent's face, and how far from it a point of a hand's middle still hides some of it: half of the
+// face and half of a palm. Ours. [m]
 constexpr Vec3 kFace{0, 1.63f, 0.047f};
 constexpr Vec3 kFaceBehindHand{0.115f, 0.14f, 1};
 

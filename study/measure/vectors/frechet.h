@@ -1,5 +1,5 @@
-// How far apart two clouds of poses are: the Frechet distance of the Gaussians that fit them. What papers call FGD is this
-// distance of what an encoder makes of poses; `evaluate` takes it of the poses themselves.
+// How far apart two clouds of poses are: the Frechet distance of the Gaussians that fit them. What papers call FGD is
+// this distance of what an encoder makes of poses; `evaluate` takes it of the poses themselves.
 #pragma once
 
 #include <vector>

@@ -307,7 +307,8 @@ TEST_F(BuildStudy, MakesTheJobsThatTheConditionsSay) {
     EXPECT_EQ(voices, 1u);
 }
 
-// Sounds that are longer than the motions are heard with them, and motions that are longer than others shown with theirs.
+// Sounds that are longer than the motions are heard with them, and motions that are longer than others shown with
+// theirs.
 TEST_F(BuildStudy, EndsAllVideosOfAMismatchedClipTogether) {
     fake_.lengths = {{"ours/c1.bvh", 1.8}, {"base/c1.bvh", 1.9}, {"ours/c2.bvh", 2.1}, {"base/c2.bvh", 2.0}};
     write_wav(folder_ / "c1.wav", testing::sine({.seconds = 2.2}));

@@ -56,7 +56,8 @@ void expect_blind(const ExportedSample& sample) {
     EXPECT_EQ(sample.mapping()["format"], "chironomia export 1");
 }
 
-// The earliest time that archives can store: a time of the copy would give the order away, one to come confuses servers.
+// The earliest time that archives can store: a time of the copy would give the order away, one to come confuses
+// servers.
 TEST(ExportStudy, GivesVideosOneTimeThatSaysNothing) {
     ExportedSample sample({});
     sample.write(ExportForm::jspsych);
