@@ -60,7 +60,7 @@ class Learning : public ::testing::Test {
 };
 
 // Dyads of six seconds: AMII looks back for four.
-void write_dyads(const fs::path& folder) {
+void write_dyads(const fs::path& folder, float most = 30) {
     constexpr std::size_t kFrames = 150;
     CorpusIndex index =
         testing::sample_index(folder, CorpusKind::dyads,
@@ -73,7 +73,7 @@ void write_dyads(const fs::path& folder) {
             testing::sample_dyad(entry.id, entry.speaker.substr(0, 1), entry.speaker.substr(2), phase += 0.7);
         for (DyadPerson& person : record.people) {
             person.face = testing::wave(kFrames * DyadPerson::kFace, 0, 1.5, phase);
-            person.speech = testing::wave(kFrames * DyadPerson::kSpeech, -3, 30, phase += 0.3);
+            person.speech = testing::wave(kFrames * DyadPerson::kSpeech, -3, most, phase += 0.3);
         }
         write_dyad(folder, record);
     }
@@ -105,6 +105,21 @@ TEST_F(Learning, LeavesAWholeCheckpointWhenASignalEndsIt) {
                       read_text(folder_ / (whole + ending)))
                 << name << ending << " after " << step << " steps";
     }
+}
+
+TEST_F(Learning, RefusesToGoOnOverAnotherCorpusOfTheSameSize) {
+    write_dyads(folder_ / "dyads");
+    write_dyads(folder_ / "others", 60);
+    const auto command = [&](const char* corpus, const char* steps) {
+        return std::vector<std::string>{"train",   "amii", "--corpus", file(corpus), "--preset",   "small",
+                                        "--steps", steps,  "--quiet",  "--out",      file("model")};
+    };
+    must(command("dyads", "1"));
+    const Outcome outcome = run_chironomia(command("others", "2"));
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("model: holds a training on another corpus, in which "));
+    EXPECT_THAT(outcome.err, HasSubstr("; name another file, or remove this one to train anew"));
+    must(command("dyads", "2"));
 }
 
 // libtorch, OpenBLAS and oneDNN would take the instructions of a processor of 2008, as they are told here.

@@ -83,6 +83,18 @@ void check_same(const Json& asked, const Json& found, const fs::path& file) {
     }
 }
 
+// What the features reach from and to is taken from the training records: another corpus has other numbers.
+void check_same_corpus(const std::vector<Feature>& asked, const std::vector<Feature>& found,
+                       const fs::path& file) {
+    for (std::size_t f = 0; f < std::min(asked.size(), found.size()); ++f) {
+        if (asked[f].low == found[f].low && asked[f].high == found[f].high) continue;
+        throw Error(format(
+            "{}: holds a training on another corpus, in which {} reaches from {} to {}; in this one it "
+            "reaches from {} to {}; name another file, or remove this one to train anew",
+            file.string(), asked[f].name, found[f].low, found[f].high, asked[f].low, asked[f].high));
+    }
+}
+
 class Training {
   public:
     Training(const TrainingTask& task, const TrainingPlan& plan, const Checkpoint& described,
@@ -221,6 +233,8 @@ class Training {
         const StoredCheckpoint found = read_checkpoint(stem_, CheckpointParts::all);
         check_same(identity(task_, plan_, described_), found.description.training.value("identity", Json()),
                    stem_);
+        check_same_corpus(described_.inputs, found.description.inputs, stem_);
+        check_same_corpus(described_.outputs, found.description.outputs, stem_);
         state_ = training_state(found, *task_.model, optimiser_, stem_);
     }
 

@@ -81,7 +81,7 @@ struct TrainingResult {
 // Losses are bit by bit the same for the same seed and thread count on one machine; with another thread
 // count, sums are added up in another order and the last digits change.
 // Throws Error with step and rate if the loss or a gradient is not finite, with `file` if it holds another
-// training; Interrupted, after the checkpoint is written.
+// training, or one whose features have other ranges, as of another corpus; Interrupted, after the checkpoint is written.
 TrainingResult train(const TrainingTask& task, const TrainingPlan& plan, const Checkpoint& described,
                      const std::filesystem::path& file);
 
