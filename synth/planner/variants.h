@@ -39,7 +39,7 @@ struct Variants {
     double latest_at_beginning = 0.6;
     // How far each joint of the fingers sways by itself, in each of two slow waves [degrees]. Ours, by eye: hands that
     // hold a shape to the last digit look like wax.
-    double finger_sway = 1.2;
+    double finger_sway = 0.6;
     // A small spatial extent, which draws hands to the chest, brings none before the face that would not be there at 0.
     bool keeps_face_free = true;
 };

@@ -24,8 +24,7 @@ TUCK, TUCK_MARGIN = 0.005, 0.006  # [m] that skin is drawn in, but for the last 
 CLOTH_REACH = 0.05  # [m] a cloth lies no further from the skin that it covers
 
 
-SKIN_TRIANGLES, SHIRT_TRIANGLES = 13400, 2800
-SHOULDER, SHOULDER_PRICE = 0.16, 10.0  # [m] around a shoulder, where cloth bends most, it keeps its triangles
+SKIN_TRIANGLES = 13800
 ARMPIT_STEPS = 4  # of smoothing, so that no cloth sticks out of the armpit of a raised arm
 SLEEVE_OFF, SLEEVE_REACH = 0.008, 0.05  # [m] short sleeves stand off near their rim, so that a bent arm stays inside
 EAR_FROM = 0.066  # [m] from the middle of the head
@@ -112,12 +111,7 @@ class Maker:
         if keep is not None:
             quads, uv_quads = quads[keep], uv_quads[keep]
         part = surface.build(points, normals, quads, proxy.mesh.uvs, uv_quads, weights, moves, turns)
-        price = None
-        if name == "shirt":
-            part = surface.rounded(part)
-            shoulders = [self.joints[rig.NAMES.index(joint)] for joint in ARMS]
-            price = np.where(cKDTree(shoulders).query(part.points)[0] < SHOULDER, SHOULDER_PRICE, 1.0)
-        self.surfaces.append((name, surface.thinned(part, wanted, price) if wanted else part))
+        self.surfaces.append((name, surface.thinned(part, wanted) if wanted else part))
 
     def add_eyes(self):
         for side, s in (("left", "L"), ("right", "R")):
@@ -210,7 +204,7 @@ class Maker:
         draped = folds.light_on(places, dict(zip(rig.NAMES, self.joints)), shirt[..., 1].min())
         for name, kept, weave, seed in (("shirt", upper, False, 21), ("trousers", ~upper, True, 22)):
             light = draped if name == "shirt" else np.clip(luma / np.median(luma), 0.7, 1.3) ** 0.5
-            self.add_proxy(name, proxy, keep=kept, wanted=SHIRT_TRIANGLES if name == "shirt" else 1250)
+            self.add_proxy(name, proxy, keep=kept, wanted=None if name == "shirt" else 1250)
             texture = paint.cloth(shadow, light, self.person.colours[name], weave, seed)
             self.material(name, 0.88, image=paint.jpeg(texture, 82), double=True)
 

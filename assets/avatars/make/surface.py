@@ -72,28 +72,6 @@ def build(mesh_points, normals, quads, uvs, uv_quads, weights, moves=None, norma
     )
 
 
-def rounded(surface):
-    """A Surface of four times as many triangles, whose new vertices lie where the normals say that it is round.
-
-    Boubekeur and Alexa, "Phong Tessellation", SIGGRAPH Asia 2008, of one new vertex an edge, with their alpha of 3/4.
-    Surfaces with moves are not rounded."""
-    edges = np.sort(np.concatenate([surface.triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
-    unique, edge = np.unique(edges, axis=0, return_inverse=True)
-    a, b = unique.T
-    new = len(surface.points) + edge.reshape(3, -1).T
-    middle = (surface.points[a] + surface.points[b]) / 2
-    flat = [middle - np.sum((middle - surface.points[v]) * surface.normals[v], 1, keepdims=True) * surface.normals[v] for v in (a, b)]
-    normals = surface.normals[a] + surface.normals[b]
-    old = surface.triangles
-    return Surface(
-        np.concatenate([surface.points, middle / 4 + 0.75 * (flat[0] + flat[1]) / 2]),
-        np.concatenate([surface.normals, normals / np.linalg.norm(normals, axis=1, keepdims=True)]),
-        np.concatenate([surface.uvs, (surface.uvs[a] + surface.uvs[b]) / 2]),
-        np.concatenate([new] + [np.stack([old[:, k], new[:, k], new[:, k - 1]], 1) for k in range(3)]),
-        np.concatenate([surface.weights, (surface.weights[a] + surface.weights[b]) / 2]),
-    )
-
-
 def thinned(surface, wanted, price=None):
     """A Surface of about `wanted` triangles, without the vertices that are no longer used."""
     triangles = decimate(surface.points, surface.triangles, wanted, price=price)
