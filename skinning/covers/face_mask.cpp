@@ -14,7 +14,7 @@ namespace {
 // All numbers of the mask are ours.
 // The outline, as seen from the middle of the face inside the head [rad]: a superellipse.
 constexpr float kHalfWidth = float(73 * kDegree);
-constexpr float kUnderChin = float(9 * kDegree);
+constexpr float kUnderChin = float(8 * kDegree);
 constexpr float kExponent = 2.4f;
 
 constexpr float kClearance = 0.03f;  // between skin and mask, of the height of the face
