@@ -14,8 +14,8 @@ namespace chironomia {
 struct FilmSpec {
     RenderSize size = {};  // of the pictures
     Rate fps = {};
-    double begin =
-        0;  // time of the first picture [s]; 0 is the first sample of sound, without sound the first frame
+    // Time of the first picture [s]; 0 is the first sample of sound, without sound the first frame.
+    double begin = 0;
 };
 
 class FilmReader {
