@@ -96,6 +96,7 @@ void join_second_armatures(Avatar& avatar) {
 
 std::vector<Pose> poses_of_all_armatures(const Avatar& avatar, std::span<const Pose> poses) {
     std::vector<Pose> all(poses.begin(), poses.end());
+    if (!avatar.humanoid.has(HumanJoint::hips)) return all;
     const std::vector<Mat4> rest = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
     const std::vector<int> goes_with = counterparts(avatar, rest);
     if (std::ranges::all_of(goes_with, [](int joint) { return joint < 0; })) return all;

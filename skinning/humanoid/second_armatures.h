@@ -15,7 +15,8 @@ namespace chironomia {
 // The avatar must be a humanoid.
 void join_second_armatures(Avatar& avatar);
 
-// The poses of such an avatar in which the joints of the garments go along as well, for writing its file.
+// The poses of such an avatar in which the joints of the garments go along as well, for writing its file. Those of a
+// scene without hips stay as they are.
 std::vector<Pose> poses_of_all_armatures(const Avatar& avatar, std::span<const Pose> poses);
 
 }  // namespace chironomia
