@@ -35,7 +35,7 @@ struct Sheet {
 
 struct Design {
     std::vector<DesignPage> pages;  // (P)
-    std::vector<Sheet> sheets;      // participant n takes sheet n modulo their number
+    std::vector<Sheet> sheets;      // each participant gets one of them
 };
 
 // How the conditions of a page get their places.

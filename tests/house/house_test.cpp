@@ -219,6 +219,52 @@ TEST(House, RoomsOfMoreThanFiveFilesHaveAReadme) {
     EXPECT_THAT(lacking, IsEmpty()) << "say in ten lines what comes in, what goes out and where to start";
 }
 
+// The rooms that a README names in its sentence "Uses `a` and `b`.": folders, or headers.
+std::vector<std::string> rooms_named(const std::string& page) {
+    static const std::regex sentence(R"((^|\s)Uses (`[^.]*?(\.h`[^.]*?)*)\.(\s|$))"), name("`([^`]+)`");
+    std::smatch match;
+    std::vector<std::string> named;
+    if (!std::regex_search(page, match, sentence)) return named;
+    const std::string list = match[2];
+    for (std::sregex_iterator each(list.begin(), list.end(), name), end; each != end; ++each)
+        named.push_back((*each)[1]);
+    return named;
+}
+
+bool lies_in(const std::string& path, const std::string& folder) {
+    return path == folder || path.starts_with(folder + "/");
+}
+
+// What a README that says what its room uses leaves out, and what it names in vain. The rooms inside need no name.
+TEST(House, ReadmesNameTheRoomsThatAreUsed) {
+    std::map<std::string, std::set<std::string>> used;
+    for (const Include& include : includes_of_house()) {
+        const std::string from = folder_of(include.file);
+        if (is_room(first_folder(include.target)) && !lies_in(include.target, from))
+            used[from].insert(include.target);
+    }
+    std::vector<std::string> found;
+    int pages = 0;
+    for (const auto& [room, headers] : used) {
+        const fs::path page = testing::source_dir() / room / "README.md";
+        if (!fs::exists(page)) continue;
+        const std::vector<std::string> named = rooms_named(read_text(page));
+        if (named.empty()) continue;
+        ++pages;
+        for (const std::string& header : headers) {
+            if (std::ranges::none_of(named, [&](const std::string& name) { return lies_in(header, name); }))
+                found.push_back(format("{}/README.md does not name {}", room, header));
+        }
+        for (const std::string& name : named) {
+            if (std::ranges::none_of(headers,
+                                     [&](const std::string& header) { return lies_in(header, name); }))
+                found.push_back(format("{}/README.md names {} in vain", room, name));
+        }
+    }
+    EXPECT_GT(pages, 45);
+    EXPECT_THAT(found, IsEmpty());
+}
+
 TEST(House, EachLibraryHasOneHomeAndAFaceThatDoesNotShowIt) {
     EXPECT_THAT(faults(home_fault), IsEmpty());
 }
