@@ -1,6 +1,7 @@
 #include "raster/embree/ray_figure.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -16,10 +17,9 @@ Stops stops_of(const Surface& surface, const Material& material) {
 }
 
 // Texture coordinates per metre along a side of the triangle; a triangle without area shows one point.
-float log2_uv_per_metre(const Vec3& a, const Vec3& b, const Vec3& c, const Vec2& uv_a, const Vec2& uv_b,
-                        const Vec2& uv_c) {
-    const float area = length(cross(b - a, c - a));
-    const Vec2 p = uv_b - uv_a, q = uv_c - uv_a;
+float log2_uv_per_metre(const std::array<Vec3, 3>& corners, const std::array<Vec2, 3>& uvs) {
+    const float area = length(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    const Vec2 p = uvs[1] - uvs[0], q = uvs[2] - uvs[0];
     const float uv_area = std::abs(p.x * q.y - p.y * q.x);
     return 0.5f * std::log2(std::max(uv_area, 1e-12f) / std::max(area, 1e-12f));
 }
@@ -73,8 +73,8 @@ RayFigure::RayFigure(const Avatar& avatar) {
     const std::vector<Vec3>& positions = rest.positions;
     for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
         const std::uint32_t a = triangles[i], b = triangles[i + 1], c = triangles[i + 2];
-        log2_uv_per_metre.push_back(
-            chironomia::log2_uv_per_metre(positions[a], positions[b], positions[c], uvs[a], uvs[b], uvs[c]));
+        log2_uv_per_metre.push_back(chironomia::log2_uv_per_metre({positions[a], positions[b], positions[c]},
+                                                                  {uvs[a], uvs[b], uvs[c]}));
     }
 }
 

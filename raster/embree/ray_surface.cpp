@@ -51,28 +51,21 @@ Vec3 direction_or(const Vec3& direction, const Vec3& otherwise) {
     return square > 1e-20f ? direction / std::sqrt(square) : otherwise;
 }
 
-Vec3 bumped(const RayTexture& map, const Vec2& uv, float log2_uv_width, float scale, const Vec3& normal,
-            const Vec4& tangent) {
+// `texel` of a normal map.
+Vec3 bumped(const Vec4& texel, float scale, const Vec3& normal, const Vec4& tangent) {
     const Vec3 along(tangent);
     const Vec3 across = cross(normal, along) * (tangent.w < 0 ? -1.0f : 1.0f);
-    Vec3 bump = Vec3(map.at(uv, log2_uv_width)) * 2.0f - 1.0f;
+    Vec3 bump = Vec3(texel) * 2.0f - 1.0f;
     bump.x *= scale;
     bump.y *= scale;
     return direction_or(bump.x * along + bump.y * across + bump.z * normal, normal);
 }
 
-// `tangent` with the handedness of the side that is seen.
-void set_anisotropy(SurfacePoint& point, const RayMaterial& maps, const Vec2& uv, float log2_uv_width,
-                    const Vec4& tangent) {
-    point.anisotropy = maps.material.anisotropy;
-    Vec2 direction(1, 0);
-    if (maps.anisotropy) {
-        const Vec4 texel = maps.anisotropy->at(uv, log2_uv_width);
-        direction = Vec2(texel) * 2.0f - 1.0f;
-        point.anisotropy *= texel.b;
-    }
-    const float cosine = std::cos(maps.material.anisotropy_turn),
-                sine = std::sin(maps.material.anisotropy_turn);
+// `texel` of the anisotropy texture; `tangent` with the handedness of the side that is seen.
+void set_anisotropy(SurfacePoint& point, const Material& material, const Vec4& texel, const Vec4& tangent) {
+    point.anisotropy = material.anisotropy * texel.b;
+    const Vec2 direction = Vec2(texel) * 2.0f - 1.0f;
+    const float cosine = std::cos(material.anisotropy_turn), sine = std::sin(material.anisotropy_turn);
     point.rough_along = shading::rough_along(point.normal, Vec3(tangent), tangent.w < 0 ? -1.0f : 1.0f,
                                              cosine * direction.x - sine * direction.y,
                                              sine * direction.x + cosine * direction.y);
@@ -120,7 +113,7 @@ SurfacePoint surface_point(const RayFigure& figure, const Ray& ray, const RayHit
         side * outside);
     point.plain_normal = side * normal;
     if (maps.normal)
-        normal = bumped(*maps.normal, uv, width, material.normal_scale, normal, triangle.tangent);
+        normal = bumped(maps.normal->at(uv, width), material.normal_scale, normal, triangle.tangent);
     point.normal = side * normal;
     point.metal = material.metallic;
     point.rough = material.roughness;
@@ -136,7 +129,9 @@ SurfacePoint surface_point(const RayFigure& figure, const Ray& ray, const RayHit
     point.coat = material.coat;
     point.coat_rough = material.coat_roughness;
     if (material.anisotropy > 0 && Vec3(triangle.tangent) != Vec3(0))
-        set_anisotropy(point, maps, uv, width, Vec4(Vec3(triangle.tangent), side * triangle.tangent.w));
+        set_anisotropy(point, material,
+                       maps.anisotropy ? maps.anisotropy->at(uv, width) : Vec4(1, 0.5f, 1, 1),
+                       Vec4(Vec3(triangle.tangent), side * triangle.tangent.w));
     point.glow = material.emissive;
     if (maps.emissive) point.glow *= Vec3(maps.emissive->at(uv, width));
     return point;

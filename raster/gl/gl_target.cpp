@@ -6,13 +6,6 @@
 namespace chironomia {
 namespace {
 
-void attach(const GlFunctions& gl, const GlName& buffer, GLenum point, GLenum kind, RenderSize size,
-            int samples) {
-    gl.BindRenderbuffer(GL_RENDERBUFFER, *buffer);
-    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, kind, size.width, size.height);
-    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, *buffer);
-}
-
 void expect_complete(const GlFunctions& gl, RenderSize size) {
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
     throw Error(format("OpenGL: cannot make pictures of {}x{} px; free memory, or choose a smaller --size",
@@ -35,12 +28,18 @@ GlTarget::GlTarget(const GlFunctions& gl, RenderSize size, int samples)
         throw Error(format("OpenGL: {} samples a pixel are wanted, this driver has at most {}; ask for fewer",
                            samples, most));
     }
+    const auto attach = [&](const GlName& buffer, GLenum point, GLenum kind, int of_pixel) {
+        gl.BindRenderbuffer(GL_RENDERBUFFER, *buffer);
+        gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, of_pixel, kind, size.width, size.height);
+        gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, *buffer);
+    };
     gl.BindFramebuffer(GL_FRAMEBUFFER, *one_);
-    attach(gl, resolved_colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, size, 0);
+    attach(resolved_colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, 0);
     expect_complete(gl, size);
     gl.BindFramebuffer(GL_FRAMEBUFFER, *many_);
-    attach(gl, colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, size, samples > 1 ? samples : 0);
-    attach(gl, depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, size, samples > 1 ? samples : 0);
+    const int many = samples > 1 ? samples : 0;
+    attach(colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, many);
+    attach(depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, many);
     expect_complete(gl, size);
 }
 

@@ -236,7 +236,7 @@ std::optional<DepthMap> FigureLight::cast_shadow(const PosedMesh& mesh, Frame& f
     const Light& key = scene_.lights.front();
     DepthMap depth = draw_depth_map(
         mesh, caster_, {.towards = key.towards, .extent = extent_, .side = kShadowMapSide}, threads_);
-    shade_floor(frame, mesh, caster_, scene_, depth,
+    shade_floor(frame, scene_, {.mesh = mesh, .caster = caster_, .seen_by_key = depth},
                 {.extent = extent_, .whole_frame = whole_frame, .threads = threads_});
     return depth;
 }

@@ -276,16 +276,17 @@ void darken_floor(Frame& frame, const Rectangle& area, const Scene& scene,
     }
 }
 
-void shade_floor(Frame& frame, const PosedMesh& mesh, const ShadowCaster& caster, const Scene& scene,
-                 const DepthMap& seen_by_key, const FloorShadowOptions& look) {
+void shade_floor(Frame& frame, const Scene& scene, const FloorShadowFigure& figure,
+                 const FloorShadowOptions& look) {
     const Light& key = scene.lights.front();
     if (!scene.floor || key.towards.y <= FloorShadowLook::kLeastHeight) return;
     const RenderSize size{frame.width, frame.height};
     const Rectangle whole{0, 0, size.width, size.height};
-    const Rectangle of_key = look.whole_frame ? whole : pixels_of_floor_shadow(seen_by_key, scene, size);
+    const Rectangle of_key =
+        look.whole_frame ? whole : pixels_of_floor_shadow(figure.seen_by_key, scene, size);
     if (is_empty(of_key)) return;
     const auto seen_from_below = [&](const Vec3& towards, int side) {
-        return draw_depth_map(mesh, caster,
+        return draw_depth_map(figure.mesh, figure.caster,
                               {.towards = -towards, .extent = look.extent, .side = side, .both_sides = true},
                               look.threads);
     };

@@ -55,9 +55,15 @@ struct FloorShadowOptions {
     int threads = 1;           // as of draw_depth_map
 };
 
-// Draws the shadow of the scene's first light, and where feet stand that of the whole sky. `seen_by_key`: the figure as
-// that light sees it.
-void shade_floor(Frame& frame, const PosedMesh& mesh, const ShadowCaster& caster, const Scene& scene,
-                 const DepthMap& seen_by_key, const FloorShadowOptions& look);
+// A figure that throws a shadow, and how the scene's first light sees it.
+struct FloorShadowFigure {
+    const PosedMesh& mesh;
+    const ShadowCaster& caster;
+    const DepthMap& seen_by_key;
+};
+
+// Draws the shadow of the scene's first light, and where feet stand that of the whole sky.
+void shade_floor(Frame& frame, const Scene& scene, const FloorShadowFigure& figure,
+                 const FloorShadowOptions& look);
 
 }  // namespace chironomia

@@ -177,8 +177,11 @@ std::vector<TileTriangle> TileFigure::set_up_triangles(const PosedMesh& mesh, in
         const bool double_sided = light_.surfaces()[stretch.surface].material.double_sided;
         for (size_t i = stretch.first; i < stretch.last; i += 3) {
             const auto& corners = *stretch.corners;
-            set_up_triangle(camera_, part.vertices, {corners[i], corners[i + 1], corners[i + 2]},
-                            stretch.surface, double_sided, pieces[static_cast<size_t>(n)]);
+            set_up_triangle(camera_, part.vertices,
+                            {.corners = {corners[i], corners[i + 1], corners[i + 2]},
+                             .surface = stretch.surface,
+                             .double_sided = double_sided},
+                            pieces[static_cast<size_t>(n)]);
         }
     });
     std::vector<TileTriangle> all;

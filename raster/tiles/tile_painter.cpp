@@ -127,7 +127,7 @@ void TilePainter::add(const Item& item) {
 void TilePainter::finish_triangle() {
     if (drawn_ != 0 && first_drawn_ < items_->count) {
         const TileTriangle& done = triangle(drawn_);
-        interpolate(*items_, first_drawn_, items_->count, *tile_, done, figure_->surface(done.surface));
+        interpolate(*items_, first_drawn_, *tile_, done, figure_->surface(done.surface));
     }
     first_drawn_ = items_->count;
 }

@@ -34,10 +34,10 @@ int last_pixel(std::int32_t most) {
     return (most - 8) >> 6;
 }
 
-// Sets edges and the box of pixels; false if no sample can be covered. `a`, `b`, `c` run round the triangle with
-// its inside on the right as seen on the screen.
-bool set_edges(TileTriangle& triangle, const GridPoint& a, const GridPoint& b, const GridPoint& c,
-               RenderSize size) {
+// Sets edges and the box of pixels; false if no sample can be covered. The corners run round the triangle with its
+// inside on the right as seen on the screen.
+bool set_edges(TileTriangle& triangle, const std::array<GridPoint, 3>& corners, RenderSize size) {
+    const auto& [a, b, c] = corners;
     triangle.left = std::max(first_pixel(std::min({a.x, b.x, c.x})), 0);
     triangle.right = std::min(last_pixel(std::max({a.x, b.x, c.x})), size.width - 1);
     triangle.top = std::max(first_pixel(std::min({a.y, b.y, c.y})), 0);
@@ -58,18 +58,19 @@ bool set_edges(TileTriangle& triangle, const GridPoint& a, const GridPoint& b, c
     return true;
 }
 
-std::int64_t twice_area(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+std::int64_t twice_area(const std::array<GridPoint, 3>& corners) {
+    const auto& [a, b, c] = corners;
     return static_cast<std::int64_t>(b.x - a.x) * (c.y - a.y) -
            static_cast<std::int64_t>(b.y - a.y) * (c.x - a.x);
 }
 
 // Adds the triangle of three points of the grid, whichever way they run.
-void add_piece(TileTriangle triangle, const GridPoint& a, const GridPoint& b, const GridPoint& c,
-               RenderSize size, std::vector<TileTriangle>& triangles) {
-    const std::int64_t area = twice_area(a, b, c);
+void add_piece(TileTriangle triangle, std::array<GridPoint, 3> corners, RenderSize size,
+               std::vector<TileTriangle>& triangles) {
+    const std::int64_t area = twice_area(corners);
     if (area == 0) return;
-    if (area > 0 ? set_edges(triangle, a, b, c, size) : set_edges(triangle, a, c, b, size))
-        triangles.push_back(triangle);
+    if (area < 0) std::swap(corners[1], corners[2]);
+    if (set_edges(triangle, corners, size)) triangles.push_back(triangle);
 }
 
 TilePlane plane_of(const Point& row) {
@@ -150,21 +151,19 @@ TileVertex make_tile_vertex(const TileCamera& camera, const Vec3& position) {
     return vertex;
 }
 
-void set_up_triangle(const TileCamera& camera, std::span<const TileVertex> vertices,
-                     const std::array<std::uint32_t, 3>& corners, std::uint32_t surface, bool double_sided,
+void set_up_triangle(const TileCamera& camera, std::span<const TileVertex> vertices, const TileFace& face,
                      std::vector<TileTriangle>& triangles) {
-    const TileVertex& a = vertices[corners[0]];
-    const TileVertex& b = vertices[corners[1]];
-    const TileVertex& c = vertices[corners[2]];
-    TileTriangle triangle{.surface = surface, .corners = corners};
+    const TileVertex& a = vertices[face.corners[0]];
+    const TileVertex& b = vertices[face.corners[1]];
+    const TileVertex& c = vertices[face.corners[2]];
+    TileTriangle triangle{.surface = face.surface, .corners = face.corners};
     const std::array<Point, 3> points = {Point(a.seen), Point(b.seen), Point(c.seen)};
     if (a.plain && b.plain && c.plain) {
-        const GridPoint at_a{a.x, a.y}, at_b{b.x, b.y}, at_c{c.x, c.y};
-        const std::int64_t area = twice_area(at_a, at_b, at_c);
-        if (area == 0 || (area > 0 && !double_sided)) return;
-        const bool seen = area > 0 ? set_edges(triangle, at_a, at_b, at_c, camera.size())
-                                   : set_edges(triangle, at_a, at_c, at_b, camera.size());
-        if (!seen) return;
+        std::array<GridPoint, 3> corners = {GridPoint{a.x, a.y}, {b.x, b.y}, {c.x, c.y}};
+        const std::int64_t area = twice_area(corners);
+        if (area == 0 || (area > 0 && !face.double_sided)) return;
+        if (area < 0) std::swap(corners[1], corners[2]);
+        if (!set_edges(triangle, corners, camera.size())) return;
         triangle.anchor_x = static_cast<float>(triangle.left) + 0.5f;
         triangle.anchor_y = static_cast<float>(triangle.top) + 0.5f;
         triangle.least_near = 1 / std::max({a.seen.z, b.seen.z, c.seen.z});
@@ -181,10 +180,10 @@ void set_up_triangle(const TileCamera& camera, std::span<const TileVertex> verti
     triangle.anchor_y = 0.5f * static_cast<float>(camera.size().height);
     triangle.least_near = 1 / camera.far();
     triangle.most_near = 1 / camera.near();
-    if (!set_planes(triangle, points, double_sided)) return;
+    if (!set_planes(triangle, points, face.double_sided)) return;
     for (size_t i = 2; i < polygon.size(); ++i)
-        add_piece(triangle, on_grid(polygon[0]), on_grid(polygon[i - 1]), on_grid(polygon[i]), camera.size(),
-                  triangles);
+        add_piece(triangle, {on_grid(polygon[0]), on_grid(polygon[i - 1]), on_grid(polygon[i])},
+                  camera.size(), triangles);
 }
 
 }  // namespace chironomia

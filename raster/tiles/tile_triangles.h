@@ -42,11 +42,16 @@ struct TileVertex {
 
 TileVertex make_tile_vertex(const TileCamera& camera, const Vec3& position);
 
-// Appends what may cover a sample of the picture of the triangle with the vertices `corners` of `vertices` (V):
-// nothing, the triangle, or the pieces that clipping leaves of it. Those that are seen from behind count only if
-// `double_sided`.
-void set_up_triangle(const TileCamera& camera, std::span<const TileVertex> vertices,
-                     const std::array<std::uint32_t, 3>& corners, std::uint32_t surface, bool double_sided,
+// A triangle of a surface.
+struct TileFace {
+    std::array<std::uint32_t, 3> corners{};  // indices of vertices
+    std::uint32_t surface = 0;
+    bool double_sided = false;  // seen from behind it counts, too
+};
+
+// Appends what may cover a sample of the picture: nothing, the triangle, or the pieces that clipping leaves of it.
+// `vertices` are (V).
+void set_up_triangle(const TileCamera& camera, std::span<const TileVertex> vertices, const TileFace& face,
                      std::vector<TileTriangle>& triangles);
 
 }  // namespace chironomia

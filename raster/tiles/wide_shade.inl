@@ -139,7 +139,7 @@ struct SampleMiddles {
 };
 constexpr SampleMiddles kSampleMiddles;
 
-void Interpolate(TileItems& items, int first, int last, const Tile& tile, const TileTriangle& triangle,
+void Interpolate(TileItems& items, int first, const Tile& tile, const TileTriangle& triangle,
                  const TileSurface& surface) {
     const SurfaceFeatures& features = surface.lit->features;
     const auto [a, b, c] = triangle.corners;
@@ -150,7 +150,7 @@ void Interpolate(TileItems& items, int first, int last, const Tile& tile, const 
     const Vec3* mirrored = behind ? surface.more_mirrored : surface.mirrored;
     const Float left = static_cast<float>(tile.x) + 0.5f, top = static_cast<float>(tile.y) + 0.5f;
     static_assert(kTileWidth == 64);
-    for (int i = first; i < last; i += lanes()) {
+    for (int i = first; i < items.count; i += lanes()) {
         const IntLanes pixel = hn::LoadU(IntTag(), items.pixel + i);
         const IntLanes samples =
             hn::And(hn::LoadU(IntTag(), items.samples + i), whole((1 << kTileSamples) - 1));

@@ -47,9 +47,16 @@ void add_to_head(const FaceRig& rig, std::vector<Transform>& joints, const Quat&
     }
 }
 
+// Joints that are turned, and their places before.
+struct TurnedFace {
+    const FaceRig& rig;
+    std::vector<Mat4> world;
+    std::vector<Transform>& joints;
+};
+
 // Turns `joint` by `turn` relative to the joint `against`. `turn` is in the axes of a figure that faces +z.
-void turn_against(const FaceRig& rig, std::vector<Transform>& joints, const std::vector<Mat4>& world,
-                  size_t joint, size_t against, const Quat& turn) {
+void turn_against(const TurnedFace& face, size_t joint, size_t against, const Quat& turn) {
+    const auto& [rig, world, joints] = face;
     const Quat since_rest = turn_since_rest(rig, world, against) * turn;
     joints[joint].rotation = local_turn(rig, joint, rotation_of(world[parent_of(rig, joint)]), since_rest);
 }
@@ -58,23 +65,22 @@ Quat turn_of(const Vec2& gaze) {
     return glm::angleAxis(gaze.x, kUp) * glm::angleAxis(-gaze.y, kToTheLeft);
 }
 
-void turn_eyes(const FaceRig& rig, std::vector<Transform>& joints, const std::vector<Mat4>& world,
-               const Gaze& gaze) {
+void turn_eyes(const TurnedFace& face, const Gaze& gaze) {
+    const FaceRig& rig = face.rig;
     for (size_t side = 0; side < 2; ++side) {
         const auto eye = static_cast<size_t>(rig.joints.eyes[side]);
         const size_t head =
             rig.joints.neck.empty() ? parent_of(rig, eye) : static_cast<size_t>(rig.joints.neck.back());
         const Vec2 turn = (side == 0 ? gaze.left : gaze.right) * rig.joints.eye_turns[side];
-        turn_against(rig, joints, world, eye, head, turn_of(turn));
+        turn_against(face, eye, head, turn_of(turn));
     }
 }
 
 // Down by `angle` against the parent.
-void lower(const FaceRig& rig, std::vector<Transform>& joints, const std::vector<Mat4>& world, int joint,
-           float angle) {
+void lower(const TurnedFace& face, int joint, float angle) {
     if (joint < 0 || angle == 0) return;
     const auto index = static_cast<size_t>(joint);
-    turn_against(rig, joints, world, index, parent_of(rig, index), glm::angleAxis(angle, kToTheLeft));
+    turn_against(face, index, parent_of(face.rig, index), glm::angleAxis(angle, kToTheLeft));
 }
 
 }  // namespace
@@ -91,12 +97,12 @@ std::vector<Transform> turn_face(const FaceRig& rig, std::vector<Transform> join
         if (turns.how == HeadTurn::replace) replace_head(rig, joints, *turns.head);
         if (turns.how == HeadTurn::add) add_to_head(rig, joints, *turns.head);
     }
-    const std::vector<Mat4> world = world_from_joints(rig.skeleton, joints);
-    if (turns.gaze && rig.joints.eyes[0] >= 0) turn_eyes(rig, joints, world, *turns.gaze);
-    lower(rig, joints, world, rig.joints.jaw, turns.jaw_drop);
+    const TurnedFace face{rig, world_from_joints(rig.skeleton, joints), joints};
+    if (turns.gaze && rig.joints.eyes[0] >= 0) turn_eyes(face, *turns.gaze);
+    lower(face, rig.joints.jaw, turns.jaw_drop);
     for (size_t side = 0; side < 2; ++side) {
-        lower(rig, joints, world, rig.joints.upper_lids[side], turns.upper_lids[side]);
-        lower(rig, joints, world, rig.joints.lower_lids[side], -turns.lower_lids[side]);
+        lower(face, rig.joints.upper_lids[side], turns.upper_lids[side]);
+        lower(face, rig.joints.lower_lids[side], -turns.lower_lids[side]);
     }
     return joints;
 }

@@ -141,19 +141,20 @@ void make_alike(LimbShape& one, LimbShape& other) {
     }
 }
 
+LimbSight sight_of(const LiftedLimb& limb, const LimbContext& clip) {
+    return {.limb = limb.seen, .trunks = clip.trunks, .camera = clip.scale.camera, .fps = clip.fps};
+}
+
 void lift_legs(std::array<LiftedLimb, 2>& legs, const LimbContext& clip) {
-    const PinholeCamera& camera = clip.scale.camera;
     for (LiftedLimb& leg : legs)
-        leg.places =
-            lift_limb(leg.seen, clip.trunks, standing_shape(leg.seen, leg.shape, camera), camera, clip.fps);
+        leg.places = lift_limb(sight_of(leg, clip), standing_shape(leg.seen, leg.shape, clip.scale.camera));
 }
 
 // The first round finds how near the arms are to the camera, and so the lengths of their bones. The later rounds also
 // use the postures that both arms take most often.
 void lift_arms(std::array<LiftedLimb, 2>& arms, const LimbContext& clip) {
-    const PinholeCamera& camera = clip.scale.camera;
     for (LiftedLimb& arm : arms) {
-        arm.places = lift_limb(arm.seen, clip.trunks, arm.shape, camera, clip.fps);
+        arm.places = lift_limb(sight_of(arm, clip), arm.shape);
         arm.shape = measured_shape(arm.seen, arm.places, arm.shape);
     }
     make_alike(arms[0].shape, arms[1].shape);
@@ -161,8 +162,8 @@ void lift_arms(std::array<LiftedLimb, 2>& arms, const LimbContext& clip) {
         const std::array before = {std::move(arms[0].places), std::move(arms[1].places)};
         for (const size_t side : {0, 1}) {
             LiftedLimb& arm = arms[side];
-            arm.places = lift_limb(arm.seen, clip.trunks, arm.shape, camera, clip.fps,
-                                   {.own = before[side], .other = before[1 - side]});
+            arm.places =
+                lift_limb(sight_of(arm, clip), arm.shape, {.own = before[side], .other = before[1 - side]});
         }
     }
 }

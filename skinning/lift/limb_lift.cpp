@@ -58,9 +58,13 @@ struct LimbAngles {
 // The seen points of all frames and the cost of one frame.
 class LimbFrames {
   public:
-    LimbFrames(std::span<const SeenLimb> seen, std::span<const Trunk> trunks, const LimbShape& shape,
-               const PinholeCamera& camera, const EarlierPlaces& earlier, double fps)
-        : seen_(seen), trunks_(trunks), shape_(shape), camera_(camera), seconds_(30 / fps), frequent_(fps) {
+    LimbFrames(const LimbSight& sight, const LimbShape& shape, const EarlierPlaces& earlier)
+        : seen_(sight.limb),
+          trunks_(sight.trunks),
+          shape_(shape),
+          camera_(sight.camera),
+          seconds_(30 / sight.fps),
+          frequent_(sight.fps) {
         fill_rests();
         if (earlier.own.empty()) return;
         find_mirror(earlier.other);
@@ -461,10 +465,10 @@ LimbShape standing_shape(std::span<const SeenLimb> seen, const LimbShape& shape,
     return standing;
 }
 
-std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const Trunk> trunks,
-                                 const LimbShape& shape, const PinholeCamera& camera, double fps,
+std::vector<LimbPlace> lift_limb(const LimbSight& sight, const LimbShape& shape,
                                  const EarlierPlaces& earlier) {
-    const LimbFrames frames(seen, trunks, shape, camera, earlier, fps);
+    const LimbFrames frames(sight, shape, earlier);
+    const double fps = sight.fps;
     const std::vector<LimbAngles> angles =
         smoothed(Refinement(frames, choose_ways(frames, fps), fps).run(), shape.swing, fps);
     std::vector<LimbPlace> places;

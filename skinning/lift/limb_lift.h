@@ -31,6 +31,14 @@ struct LimbShape {
     double swing = 5;     // cutoff of the zero-phase low-pass over its angles [Hz]; 0: none
 };
 
+// What a camera sees of a limb and of its trunk over a clip, (T) each.
+struct LimbSight {
+    std::span<const SeenLimb> limb;
+    std::span<const Trunk> trunks;
+    PinholeCamera camera;
+    double fps = 30;
+};
+
 struct LimbPlace {
     glm::dvec3 mid{0};  // [m]
     glm::dvec3 tip{0};
@@ -49,8 +57,7 @@ struct EarlierPlaces {
 // mirror each other, because people gesture with both hands alike, and to repeat the postures that they take most
 // (frequent_postures.h). After Lee and Chen, "Determination of 3D human body postures from a single view", CVGIP 30,
 // 1985, who found the two ways that each bone can point; we choose among them over time.
-std::vector<LimbPlace> lift_limb(std::span<const SeenLimb> seen, std::span<const Trunk> trunks,
-                                 const LimbShape& shape, const PinholeCamera& camera, double fps,
+std::vector<LimbPlace> lift_limb(const LimbSight& sight, const LimbShape& shape,
                                  const EarlierPlaces& earlier = {});
 
 // `shape` with the bones as long as they look at their longest. `places` correct for the distance to the camera. At

@@ -94,11 +94,21 @@ class Inspector {
     const std::string& where_;
 };
 
-// Of one of PATS's spectra beside `seconds` of pose.
-void check_mel(const Inspector& inspector, std::size_t numbers, std::size_t width, double rate,
-               double seconds, std::string_view array) {
-    if (numbers % width != 0) inspector.refuse(format("/{} has no whole rows of {} numbers", array, width));
-    const double rows = static_cast<double>(numbers / width), expected = rate * seconds;
+// One of PATS's spectra.
+struct MelArray {
+    std::string_view name;  // "audio/log_mel_400"
+    const std::vector<float>& numbers;
+    std::size_t width = 0;
+    double rate = 0;  // [rows/s]
+};
+
+// Beside `seconds` of pose.
+void check_mel(const Inspector& inspector, const MelArray& mel, double seconds) {
+    const auto& [array, numbers, width, rate] = mel;
+    if (numbers.size() % width != 0)
+        inspector.refuse(format("/{} has no whole rows of {} numbers", array, width));
+    const double rows = static_cast<double>(numbers.size() / width), expected = rate * seconds;
+    inspector.finite(numbers, array);
     if (std::abs(rows - expected) <= kMelTolerance * expected + kMelSlack) return;
     inspector.refuse(format(
         "/{} has {} rows for {:.2f} s of pose, where about {:.0f} are expected ({} a second); take the "
@@ -106,9 +116,16 @@ void check_mel(const Inspector& inspector, std::size_t numbers, std::size_t widt
         array, rows, seconds, expected, rate));
 }
 
-void check_points(const Inspector& inspector, const std::vector<float>& places,
-                  const std::vector<float>& normalized, const std::vector<float>& confidence,
-                  std::size_t count, const std::string& group) {
+// Points of a picture as a record holds them, x and y.
+struct PointArrays {
+    std::string group;  // "pose", "face"
+    const std::vector<float>& places;
+    const std::vector<float>& normalized;
+    const std::vector<float>& confidence;
+};
+
+void check_points(const Inspector& inspector, const PointArrays& points, std::size_t count) {
+    const auto& [group, places, normalized, confidence] = points;
     inspector.rows(places.size(), count, group + "/data", "pose/data");
     inspector.rows(normalized.size(), count, group + "/normalize", "pose/data");
     inspector.rows(confidence.size(), count, group + "/confidence", "pose/data");
@@ -188,18 +205,18 @@ void check_record(const IntervalRecord& record, const std::string& where) {
     const std::size_t frames = record.frames();
     if (frames == 0) inspector.refuse("/pose/data is empty");
     const double seconds = static_cast<double>(frames) / IntervalRecord::kFps;
-    check_points(inspector, record.pose, record.pose_normalized, record.pose_confidence,
-                 frames * 2 * IntervalRecord::kJoints, "pose");
+    check_points(inspector, {"pose", record.pose, record.pose_normalized, record.pose_confidence},
+                 frames * 2 * IntervalRecord::kJoints);
     if (!record.face.empty() || !record.face_normalized.empty() || !record.face_confidence.empty()) {
-        check_points(inspector, record.face, record.face_normalized, record.face_confidence,
-                     frames * 2 * IntervalRecord::kFacePoints, "face");
+        check_points(inspector, {"face", record.face, record.face_normalized, record.face_confidence},
+                     frames * 2 * IntervalRecord::kFacePoints);
     }
-    check_mel(inspector, record.mel_400.size(), IntervalRecord::kMel400, IntervalRecord::kMel400Rate, seconds,
-              "audio/log_mel_400");
-    check_mel(inspector, record.mel_512.size(), IntervalRecord::kMel512, IntervalRecord::kMel512Rate, seconds,
-              "audio/log_mel_512");
-    inspector.finite(record.mel_400, "audio/log_mel_400");
-    inspector.finite(record.mel_512, "audio/log_mel_512");
+    check_mel(inspector,
+              {"audio/log_mel_400", record.mel_400, IntervalRecord::kMel400, IntervalRecord::kMel400Rate},
+              seconds);
+    check_mel(inspector,
+              {"audio/log_mel_512", record.mel_512, IntervalRecord::kMel512, IntervalRecord::kMel512Rate},
+              seconds);
     inspector.rows(record.vectors.size(), frames * kWordVector, "text/bert", "pose/data");
     inspector.finite(record.vectors, "text/bert");
     inspector.rows(record.tokens.size(), frames, "text/tokens", "pose/data");

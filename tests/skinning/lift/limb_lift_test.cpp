@@ -47,10 +47,10 @@ struct HeldOut {
     }
 
     std::vector<LimbPlace> lift_left(const EarlierPlaces& earlier = {}) const {
-        return lift_limb(left, trunks, left_shape, camera, kFps, earlier);
+        return lift_limb({left, trunks, camera, kFps}, left_shape, earlier);
     }
     std::vector<LimbPlace> lift_right(const EarlierPlaces& earlier = {}) const {
-        return lift_limb(right, trunks, right_shape, camera, kFps, earlier);
+        return lift_limb({right, trunks, camera, kFps}, right_shape, earlier);
     }
 };
 
