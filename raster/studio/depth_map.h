@@ -46,6 +46,9 @@ struct DepthMap {
     float top = 0;                     // depth 0 lies here along `towards` [m]
     float range = 1;                   // depth 1 lies this far below it [m]
     std::vector<float> depth;          // (side, side) in [0, 1], row 0 at the bottom; 1: nothing there
+
+    // What is shaded is looked up a little off its surface [m], so that it does not shade itself; ours.
+    float off_surface() const { return 0.7f * texel; }
 };
 
 // The grid moves by whole texels and never changes its scale while the figure fits, so that shadows do not

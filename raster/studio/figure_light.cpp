@@ -224,7 +224,7 @@ PixelShadow FigureLight::pixel_shadow_of(const LitSurface& surface, const DepthM
     return {.map_from_world = map_from_world(depth),
             .extent = depth.texel * static_cast<float>(depth.side),
             .range = depth.range,
-            .offset = 0.7f * depth.texel,
+            .offset = depth.off_surface(),
             .bias = 1.0f * depth.texel / depth.range,
             .least = penumbra_on(surface).least,
             .wide = limit * PenumbraRadii::kAtVertices * body()};

@@ -21,8 +21,7 @@ struct WideShadow {
           bias(map.texel / map.range) {}
 
     HWY_INLINE Takers takers_at(const vec3& position, const vec3& normal, Float lit) const {
-        // A little off the surface, so that it does not shade itself.
-        const vec3 place = position + normal * Float(0.7f * map.texel);
+        const vec3 place = position + normal * Float(map.off_surface());
         const Float per_depth = Float(map.texel) / (Float(map.range) * max(lit, 0.1f));
         return {(dot(right, place) - Float(map.left)) / Float(map.texel),
                 (dot(up, place) - Float(map.bottom)) / Float(map.texel),

@@ -154,7 +154,7 @@ class Chooser {
         if (rep <= -1) return planned.rheme_start;
         if (rep < 0) return planned.rheme_start + rheme / (1 - rep);
         if (rep == 0) return planned.rheme_start + rheme;
-        return planned.rheme_start + inputs_.variants.repetition_horizon * (1 + rep) * rheme;
+        return planned.rheme_start + inputs_.variants.repetition_lookahead * (1 + rep) * rheme;
     }
 
     // When the next gesture of one of a gesture's arms begins, if it comes straight from this one.

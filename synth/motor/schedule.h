@@ -77,7 +77,7 @@ struct ScheduleInputs {
 //       Variants::retraction_threshold (1 + 0.8 flt), the arm does not retract in it.
 //     - The stroke of a gesture that can be repeated is repeated on the accents up to the horizon, counted from the
 //       start of the rheme of duration t: none for rep = -1, t / (1 - rep) below 0, t at 0, x (1 + rep) t
-//       above, x = Variants::repetition_horizon. For each the hand goes back 0.6 + 0.3 pwr of the stroke;
+//       above, x = Variants::repetition_lookahead. For each the hand goes back 0.6 + 0.3 pwr of the stroke;
 //       accents that come too soon are skipped, and the next gesture's preparation comes first.
 //     - A gesture with a `relax` of its own is held until then instead, and not repeated. One with an `end` is repeated
 //       only as long as it is back at rest by then, if its retraction is compressed to half at most; it retracts

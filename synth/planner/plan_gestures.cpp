@@ -236,7 +236,7 @@ class GesturePlanner {
 
     // The horizon of a repetition of 1.
     void add_accents(PlannedGesture& planned) const {
-        const double horizon = planned.rheme_start + 2 * plan_.variants.repetition_horizon *
+        const double horizon = planned.rheme_start + 2 * plan_.variants.repetition_lookahead *
                                                          (planned.rheme_end - planned.rheme_start);
         const std::vector<Accent>& all = plan_.accents.all();
         auto accent = std::partition_point(all.begin(), all.end(),

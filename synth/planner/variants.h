@@ -30,10 +30,10 @@ struct Variants {
     TemporalScope temporal_scope = TemporalScope::all;
     SpatialMatrix spatial_matrix = SpatialMatrix::scale;
     FluidityMap fluidity_map = FluidityMap::monotone;
-    double fitts_intercept = 0.09;      // a of Fitts's law [s], distances in centimetres
-    double retraction_threshold = 1.0;  // pause below which arms stay up at fluidity 0 [s]
-    double repetition_horizon = 1.25;   // x of the lookahead of a positive repetition, above 1
-    double fist_gain = 0.7;             // of the way to the fist at power 1
+    double fitts_intercept = 0.09;       // a of Fitts's law [s], distances in centimetres
+    double retraction_threshold = 1.0;   // pause below which arms stay up at fluidity 0 [s]
+    double repetition_lookahead = 1.25;  // x of the lookahead of a positive repetition, above 1
+    double fist_gain = 0.7;              // of the way to the fist at power 1
     // A gesture at the beginning that is not a beat comes so much after its accent at most, rather than not at all [s].
     // Ours: the paper has no such case; the waves of the bundled lexicon need 0.4 to 0.5 on a first word.
     double latest_at_beginning = 0.6;

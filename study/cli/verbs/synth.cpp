@@ -132,7 +132,7 @@ void add_variants(CLI::App& verb, Variants& variants) {
         ->type_name("S")
         ->check(CLI::Range(0.0, 2.0))
         ->group(kReadings);
-    verb.add_option("--repetition-lookahead", variants.repetition_horizon,
+    verb.add_option("--repetition-lookahead", variants.repetition_lookahead,
                     "x of the lookahead for repetitions, above 1 [1.25]")
         ->type_name("X")
         ->check(CLI::Range(1.0, 10.0))
