@@ -92,11 +92,12 @@ Avatar mannequin() {
     return read_avatar(find_asset("assets/avatars/mannequin.glb"));
 }
 
-// Vertices of eyes, nose and lips: what lies within 40 degrees of straight ahead, between chin and brows.
+// Vertices of eyes, nose and lips: what lies within 40 degrees of straight ahead, between the lower lip and the brows.
+// 0.08 of the face's height, 15 mm, below the mouth there is no lip any more.
 bool is_feature(const FaceRegion& face, FacePart part, const Vec3& place) {
     const Vec3 from = place - face.middle;
     return part >= FacePart::face && from.z > 0.15f * face.height && std::abs(from.x) < 0.8f * from.z &&
-           place.y > face.chin.y + 0.06f * face.height && place.y < face.eyes.y + 0.1f * face.height;
+           place.y > face.mouth.y - 0.08f * face.height && place.y < face.eyes.y + 0.1f * face.height;
 }
 
 class MaskOf : public ::testing::TestWithParam<std::string> {
