@@ -25,7 +25,10 @@ CLOTH_REACH = 0.05  # [m] a cloth lies no further from the skin that it covers
 
 
 SKIN_TRIANGLES = 13800
+ARMPIT_STEPS = 4  # of smoothing, so that no cloth sticks out of the armpit of a raised arm
+SLEEVE_OFF, SLEEVE_REACH = 0.008, 0.05  # [m] short sleeves stand off near their rim, so that a bent arm stays inside
 EAR_FROM = 0.066  # [m] from the middle of the head
+ARMS = ("left_upper_arm", "right_upper_arm")
 HANDS = tuple(f"{side}_{part}" for side in ("left", "right") for part in ("hand", *rig.FINGERS))
 
 
@@ -40,6 +43,13 @@ def _islands(quads, count):
     a, b = quads.ravel(), np.roll(quads, 1, 1).ravel()
     _, label = connected_components(coo_matrix((np.ones(len(a)), (a, b)), shape=(count, count)), directed=False)
     return np.unique(label[quads[:, 0]], return_inverse=True)[1]
+
+
+def _rim(quads):
+    """The vertices at the open edges."""
+    edges = np.sort(np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
+    unique, times = np.unique(edges[edges[:, 0] != edges[:, 1]], axis=0, return_counts=True)
+    return np.unique(unique[times == 1])
 
 
 class Maker:
@@ -81,6 +91,16 @@ class Maker:
         points = fitting.fitted(proxy, self.points) + shift
         quads, uv_quads = proxy.mesh.quads, proxy.mesh.uv_quads
         normals = surface.normals_of(points, quads)
+        weights = fitting.carried_weights(proxy, self.weights)
+        if name == "shirt":
+            arms = [rig.NAMES.index(joint) for joint in ARMS]
+            near = surface.links(quads, len(points))
+            below = points[:, 1:2] < self.joints[arms[0]][1]
+            for _ in range(ARMPIT_STEPS):
+                on_arm = below * weights[:, arms].sum(1)[:, None]
+                weights = weights + 4 * on_arm * (1 - on_arm) * (near @ weights - weights)
+            far = cKDTree(points[_rim(quads)]).query(points)[0]
+            points = points + SLEEVE_OFF * (weights[:, arms].sum(1) * np.exp(-((far / SLEEVE_REACH) ** 2)))[:, None] * normals
         moves, turns = {}, {}
         if morphs:
             for morph, base_moves in self.moves.items():
@@ -90,7 +110,6 @@ class Maker:
                     turns[morph] = surface.normals_of(points + move, quads) - normals
         if keep is not None:
             quads, uv_quads = quads[keep], uv_quads[keep]
-        weights = fitting.carried_weights(proxy, self.weights)
         part = surface.build(points, normals, quads, proxy.mesh.uvs, uv_quads, weights, moves, turns)
         self.surfaces.append((name, surface.thinned(part, wanted) if wanted else part))
 
@@ -193,12 +212,9 @@ class Maker:
         """(V) whether a vertex of the skin lies under a cloth, further than `margin` [m] inside its rim."""
         cloth = fitting.fitted(proxy, self.points)
         quads = proxy.mesh.quads
-        edges = np.sort(np.concatenate([quads[:, [k, (k + 1) % 4]] for k in range(4)]), axis=1)
-        unique, times = np.unique(edges[edges[:, 0] != edges[:, 1]], axis=0, return_counts=True)
-        rim = np.unique(unique[times == 1])
         middles = cloth[quads].mean(1)
         near, which = cKDTree(middles).query(self.points)
-        inside = cKDTree(cloth[rim]).query(self.points)[0] > margin
+        inside = cKDTree(cloth[_rim(quads)]).query(self.points)[0] > margin
         deep = ((self.points - middles[which]) * _quad_normals(cloth, quads)[which]).sum(1) < 0.002
         return (near < CLOTH_REACH) & inside & deep
 

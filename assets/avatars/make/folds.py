@@ -36,11 +36,12 @@ def heights(places, joints, hem):
         near = _bump(np.linalg.norm(off, axis=1), 0.09)
         inner = 0.6 + 0.4 * np.tanh(off[:, 2] / 0.02)
         total += 0.0016 * near * inner * _bump(beyond, 0.07) * np.sin(2 * np.pi * beyond / 0.026 + 2.5 * noise + 1.5 * slow)
-        pit = shoulder + np.array([0, -0.075, 0.0]) - 0.02 * np.sign(shoulder[0]) * np.array([1, 0, 0])
-        away = places - pit
-        angle = np.arctan2(away[:, 1], away[:, 0] * np.sign(shoulder[0]))
+        outward = np.array([np.sign(shoulder[0]), 0, 0])
+        away = places - (shoulder + np.array([0, -0.055, 0]) + 0.06 * outward)
+        angle = np.arctan2(away[:, 1], -away @ outward)
         reach = np.linalg.norm(away, axis=1)
-        total += 0.0013 * np.clip(reach / 0.05, 0, 1) ** 3 * _bump(reach - 0.07, 0.03) * np.sin(8 * angle + 3.5 * noise)
+        fan = _bump(angle + 0.25, 0.45) * _bump(reach - 0.125, 0.045) * np.clip((reach - 0.05) / 0.05, 0, 1)
+        total += 0.0016 * fan * (0.6 + 0.4 * slow) * np.sin(20 * angle + 2.0 * noise)
     over = places[:, 1] - hem
     middle = _bump(over - 0.11, 0.09)
     slanted = places[:, 1] + 0.30 * np.abs(places[:, 0]) * np.tanh(6 * (0.4 + slow))
