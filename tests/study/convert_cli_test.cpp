@@ -43,6 +43,23 @@ TEST_F(Convert, NamesFilesOfOpenPoseByTheFolderWithAStrokeBehindItToo) {
     EXPECT_TRUE(fs::exists(folder_ / "clip/clip_000000000000_keypoints.json"));
 }
 
+TEST_F(Convert, TakesTheMotionWithAndWithoutItsOption) {
+    const std::string with = (folder_ / "with.csv").string(), without = (folder_ / "without.csv").string();
+    ASSERT_EQ(run_chironomia({"convert", "--motion", kBvh, "--out", with}).exit_code, 0);
+    ASSERT_EQ(run_chironomia({"convert", kBvh, "--out", without}).exit_code, 0);
+    EXPECT_EQ(read_text(with), read_text(without));
+    EXPECT_EQ(run_chironomia({"fit", kBvh}).out, run_chironomia({"fit", "--motion", kBvh}).out);
+    EXPECT_EQ(run_chironomia({"measure", kBvh}).out, run_chironomia({"measure", "--motion", kBvh}).out);
+    const auto rendered = [&](std::vector<std::string> motions, const char* name) {
+        std::vector<std::string> words = {"render", "--scene", "dyad", "--size", "64x36", "--frames", "0:2"};
+        words.insert(words.end(), {"--out", (folder_ / name / "%02d.png").string()});
+        words.insert(words.end(), motions.begin(), motions.end());
+        EXPECT_EQ(run_chironomia(words).exit_code, 0);
+        return read_bytes(folder_ / name / "01.png");
+    };
+    EXPECT_EQ(rendered({"--motion", kBvh, "--motion", kPoints}, "a"), rendered({kBvh, kPoints}, "b"));
+}
+
 TEST_F(Convert, MakesAPictureOfAMotionInSpaceAndLiftsItAgain) {
     const Outcome made = convert(kBvh, "clip", {"--yaw", "20", "--size", "640x480", "--focal", "600"});
     ASSERT_EQ(made.exit_code, 0) << made.err;

@@ -69,12 +69,12 @@ void add_motion_hints(CLI::App& verb, MotionHints& hints) {
     }
 }
 
-CLI::Option* PeopleOptions::add(CLI::App& verb, const std::string& name, Read read, const std::string& help,
+CLI::Option* PeopleOptions::add(CLI::App& verb, const std::string& names, Read read, const std::string& help,
                                 bool is_of_one) {
     // A list does not move when it grows, so CLI11 may write into it.
-    Given& given = given_.emplace_back(
-        Given{.name = name, .read = std::move(read), .is_of_one = is_of_one, .texts = {}});
-    return verb.add_option(name, given.texts, help)->allow_extra_args(false);
+    Given& given = given_.emplace_back(Given{
+        .name = names.substr(names.find('-')), .read = std::move(read), .is_of_one = is_of_one, .texts = {}});
+    return verb.add_option(names, given.texts, help)->allow_extra_args(false);
 }
 
 bool PeopleOptions::has(const std::string& name) const {

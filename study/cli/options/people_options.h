@@ -36,9 +36,9 @@ class PeopleOptions {
   public:
     using Read = std::function<void(Performer&, const std::string&)>;
 
-    // `read` may be called several times; its Error becomes a message about the option. An option
-    // that `is_of_one` cannot hold for two people.
-    CLI::Option* add(CLI::App& verb, const std::string& name, Read read, const std::string& help,
+    // `names`: "--face", or "motion,--motion" where no name need stand before the value. `read` may be called several
+    // times; its Error becomes a message about the option. An option that `is_of_one` cannot hold for two people.
+    CLI::Option* add(CLI::App& verb, const std::string& names, Read read, const std::string& help,
                      bool is_of_one = false);
 
     bool has(const std::string& name) const;

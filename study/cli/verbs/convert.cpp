@@ -226,7 +226,8 @@ void add_convert(CLI::App& app, std::optional<Command>& result) {
                               "  $ chironomia convert --motion a.npz --out a.bvh\n"
                               "  $ chironomia convert --motion a.bvh --avatar female --out a.glb\n"
                               "  $ chironomia convert --motion a.bvh --yaw 30 --out a_openpose");
-    verb->add_option("--motion", command->motion, "A motion of any form that render reads, or animated glTF")
+    verb->add_option("motion,--motion", command->motion,
+                     "A motion of any form that render reads, or animated glTF")
         ->type_name("M");
     add_motion_hints(*verb, command->hints);
     add_face(*verb, command->face, command->face_options);

@@ -38,7 +38,9 @@ void add_fit(CLI::App& app, std::optional<Command>& result) {
                  "Judge how well motions fit an avatar, and whether they may be shown; exit 1 if one may not",
                  "  $ chironomia fit motions/ --avatar neutral --report page.html\n"
                  "  $ chironomia fit wave.bvh openpose/ --motion-fps 24 --json");
-    verb->add_option("motions", job.motions, "Motions, or folders of them")->type_name("M")->required();
+    verb->add_option("motions,--motion", job.motions, "Motions, or folders of them")
+        ->type_name("M")
+        ->required();
     add_motion_hints(*verb, job.hints);
     verb->add_option("--avatar", job.avatar, "glTF, GLB or VRM file, or a bundled name [neutral]")
         ->type_name("A");

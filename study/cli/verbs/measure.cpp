@@ -21,7 +21,7 @@ void add_measure(CLI::App& app, std::optional<Command>& result) {
                  "  $ chironomia measure ours.bvh baseline.bvh --json\n"
                  "  $ chironomia measure predicted.h5 --against recorded.csv --partner listener.csv\n"
                  "  $ chironomia measure styled.bvh --against target.bvh --source talk.bvh");
-    verb->add_option("motions", command->motions, "Motion files of any kind that is read")
+    verb->add_option("motions,--motion", command->motions, "Motion files of any kind that is read")
         ->type_name("M...")
         ->required();
     CLI::Option* against =

@@ -144,11 +144,12 @@ void add_people(CLI::App& verb, RenderOptions& options) {
     verb.option_defaults()->group(kOfMotions);
     people
         .add(
-            verb, "--motion", [](Performer& person, const std::string& text) { person.motion = text; },
+            verb, "motion,--motion", [](Performer& person, const std::string& text) { person.motion = text; },
             "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5. Given twice, it shows two people, "
             "left and right. Each has options of reading it, --face, --audio and --avatar of their own [with --face "
             "the body stands still; without, the file of --avatar, which may be any glTF, plays its own animation]")
-        ->type_name("M");
+        ->type_name("M")
+        ->allow_extra_args();
     for (const HintOption& option : hint_options()) {
         const auto read = [option](Performer& person, const std::string& text) {
             option.read(person.hints, text);
