@@ -41,7 +41,9 @@ Kind kind_of(const fs::path& file) {
     const std::string ending = to_lower(file.extension().string());
     if (ending == ".mp4") return Kind::mp4;
     if (ending == ".webm") return Kind::webm;
-    throw Error(format("{}: a clip cannot end in \"{}\"; name it .mp4 or .webm", file.string(), ending));
+    throw Error(format(
+        "{}: a clip cannot end in \"{}\"; name it .mp4 or .webm, or name pictures, such as frames/%04d.png",
+        file.string(), ending));
 }
 
 void expect_side(const fs::path& file, const char* name, int side) {

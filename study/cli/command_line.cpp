@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "core/text.h"
@@ -82,6 +83,51 @@ std::optional<std::string> unknown_verb(const CLI::App& app, int argc, const cha
                   meant ? format(" (did you mean {}?)", *meant) : "", join(verbs));
 }
 
+// The option of `names` that somebody meant who wrote `typo`: one with a letter or two of difference, a longer or a
+// shorter form ("--output", "--o"), or the only one that begins with a single letter ("-o").
+std::optional<std::string> option_meant(const std::string& typo, const std::vector<std::string>& names) {
+    if (const auto near = nearest_name(typo, names)) return near;
+    const std::string_view bare = std::string_view(typo).substr(typo.find_first_not_of('-'));
+    const auto is_form = [&](std::string_view name) {
+        return name.substr(2).starts_with(bare) || bare.starts_with(name.substr(2));
+    };
+    const auto found = std::ranges::find_if(names, is_form);
+    if (found == names.end() || std::any_of(found + 1, names.end(), is_form)) return std::nullopt;
+    return *found;
+}
+
+// CLI11 complains of what is missing before it says what it does not know.
+std::optional<std::string> unknown_option(const CLI::App& app, int argc, const char* const* argv) {
+    const CLI::App* verb = &app;
+    int first = 1;
+    for (; first < argc; ++first) {
+        const auto named =
+            verb->get_subcommands([&](const CLI::App* it) { return it->get_name() == argv[first]; });
+        if (named.empty()) break;
+        verb = named.front();
+    }
+    bool is_value = false;
+    for (int i = first; i < argc && argv[i] != std::string_view("--"); ++i) {
+        const std::string_view word = argv[i];
+        const std::string name(word.substr(0, word.find('=')));
+        const bool is_option = !is_value && word.size() > 1 && word[0] == '-' && word[1] != '=' &&
+                               (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+        is_value = false;
+        if (!is_option) continue;
+        if (const CLI::Option* option = verb->get_option_no_throw(name)) {
+            is_value = name == word && option->get_items_expected_min() > 0;
+            continue;
+        }
+        std::vector<std::string> names;
+        for (const CLI::Option* option : verb->get_options()) {
+            for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
+        }
+        const auto meant = option_meant(name, names);
+        return format("there is no option {}{}", name, meant ? format("; did you mean {}?", *meant) : "");
+    }
+    return std::nullopt;
+}
+
 // The program, and what it finds on this machine.
 std::string describe_program() {
     const std::string_view torch = torch_version();
@@ -105,8 +151,13 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     std::optional<Command> result;
     for (const Verb& verb : kVerbs) verb.add(home_of(verb, app), result);
-    if (const auto typo = unknown_verb(app, argc, argv)) {
-        return {.command = {}, .text = *typo + "\n", .exit_code = kExitWrongCommandLine};
+    if (argc < 2) return {.command = {}, .text = app.help(), .exit_code = kExitWrongCommandLine};
+    auto typo = unknown_verb(app, argc, argv);
+    if (!typo) typo = unknown_option(app, argc, argv);
+    if (typo) {
+        return {.command = {},
+                .text = *typo + "\nRun with --help for more information.\n",
+                .exit_code = kExitWrongCommandLine};
     }
     try {
         app.parse(argc, argv);

@@ -199,7 +199,9 @@ TEST(ClipWriter, RefusesAWrongOrder) {
         EXPECT_TRUE(text.starts_with((folder / name).string() + ": ")) << text;
         return text.substr(std::min(text.size(), (folder / name).string().size() + 2));
     };
-    EXPECT_EQ(refusal("clip.avi", {}), "a clip cannot end in \".avi\"; name it .mp4 or .webm");
+    EXPECT_EQ(
+        refusal("clip.avi", {}),
+        "a clip cannot end in \".avi\"; name it .mp4 or .webm, or name pictures, such as frames/%04d.png");
     EXPECT_EQ(refusal("clip.mp4", {.size = {641, 480}}),
               "a width of 641 px is odd, and video stores colour for 2 x 2 pixels; use 640 or 642");
     EXPECT_EQ(refusal("clip.mp4", {.size = {640, 481}}),

@@ -185,7 +185,7 @@ struct WrongLine {
 
 TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
     const std::vector<WrongLine> lines = {
-        {{}, "A subcommand is required"},
+        {{}, "Each verb has its own --help with examples."},
         {{"rendr"},
          "\"rendr\" is no verb (did you mean render?); the verbs are demo, synth, corpus, render, convert,"},
         {{"render", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
@@ -212,7 +212,11 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         {{"study", "build", "p.json", "--out", "o", "--seed", "18446744073709551616"},
          "is no seed; write a whole number from 0 to 18446744073709551615"},
         {{"render", "--motion", "a.bvh"}, "--out is required"},
-        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--colour", "red"}, "--colour"},
+        {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--colour", "red"},
+         "there is no option --colour\n"},
+        {{"render", "a.bvh", "-o", "a.mp4"}, "there is no option -o; did you mean --out?"},
+        {{"render", "a.bvh", "--output=a.mp4"}, "there is no option --output; did you mean --out?"},
+        {{"study", "build", "p.json", "--sed", "1"}, "there is no option --sed; did you mean --seed?"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--size", "big"},
          "\"big\" is no size; write WIDTHxHEIGHT"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--fps", "fast"}, "\"fast\" is no frame rate"},
