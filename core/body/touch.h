@@ -8,11 +8,11 @@
 
 namespace chironomia {
 
-// Forearm and upper arm are those of the other arm.
-enum class Touch { nothing, head, trunk, forearm, upper_arm };
+// Hand, forearm and upper arm are those of the other arm.
+enum class Touch { nothing, head, trunk, hand, forearm, upper_arm };
 
-inline constexpr std::array<std::string_view, 5> kTouchNames = {"nothing", "head", "trunk", "forearm",
-                                                                "upper arm"};
+inline constexpr std::array<std::string_view, 6> kTouchNames = {"nothing", "head",    "trunk",
+                                                                "hand",    "forearm", "upper arm"};
 
 // The label tracks (core/body/motion.h) that say what the left and the right hand rest on.
 inline constexpr std::array<std::string_view, 2> kTouchLabels = {"left touch", "right touch"};

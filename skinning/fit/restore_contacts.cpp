@@ -34,17 +34,23 @@ ShapePart on_side(ShapePart left, std::size_t side) {
     return side == 0 ? left : static_cast<ShapePart>(static_cast<int>(left) + kToRight);
 }
 
-// What the hand of a side rests on.
-ShapePart touched_part(Touch touch, std::size_t side) {
+bool is_hand(ShapePart part, std::size_t side) {
+    return part == on_side(ShapePart::left_hand, side) || part == on_side(ShapePart::left_fingers, side);
+}
+
+// Whether the hand of a side rests on a part.
+bool is_touched(ShapePart part, Touch touch, std::size_t side) {
     switch (touch) {
         case Touch::head:
-            return ShapePart::head;
+            return part == ShapePart::head;
+        case Touch::hand:
+            return is_hand(part, 1 - side);
         case Touch::forearm:
-            return on_side(ShapePart::left_forearm, 1 - side);
+            return part == on_side(ShapePart::left_forearm, 1 - side);
         case Touch::upper_arm:
-            return on_side(ShapePart::left_upper_arm, 1 - side);
+            return part == on_side(ShapePart::left_upper_arm, 1 - side);
         default:
-            return ShapePart::trunk;
+            return part == ShapePart::trunk;
     }
 }
 
@@ -123,23 +129,22 @@ class ContactMover {
         const Quat from_world = conjugate(shoulders_of(moved));
         for (std::size_t side = 0; side < 2; ++side) {
             if (!touches_at(t, side)) continue;
-            const auto nearest = nearest_of(posed, side, touched_part(touches_[side][t], side));
+            const auto nearest = nearest_of(posed, side, touches_[side][t]);
             if (!nearest) continue;
-            const float open = ContactTuning::kPressed - nearest->depth;
+            const bool both = touches_[0][t] == Touch::hand && touches_[1][t] == Touch::hand;
+            const float open = (ContactTuning::kPressed - nearest->depth) * (both ? 0.5f : 1.0f);
             shifts_[side][t] -= from_world * nearest->away * (ContactTuning::kGain * open);
         }
     }
 
-    // Of the hand of a side to a part; none where the avatar lacks one of them.
-    std::optional<Overlap> nearest_of(const PosedSkeleton& posed, std::size_t side, ShapePart part) const {
+    // Of the hand of a side to what it rests on; none where the avatar lacks one of them.
+    std::optional<Overlap> nearest_of(const PosedSkeleton& posed, std::size_t side, Touch touch) const {
         std::optional<Overlap> nearest;
         for (const ShapeCapsule& own : shape_.capsules) {
-            if (own.part != on_side(ShapePart::left_hand, side) &&
-                own.part != on_side(ShapePart::left_fingers, side))
-                continue;
+            if (!is_hand(own.part, side)) continue;
             const Capsule hand = placed(own, {posed.turns, posed.places});
             for (const ShapeCapsule& other : shape_.capsules) {
-                if (other.part != part) continue;
+                if (!is_touched(other.part, touch, side)) continue;
                 const Overlap overlap = overlap_of(hand, placed(other, {posed.turns, posed.places}));
                 if (!nearest || overlap.depth > nearest->depth) nearest = overlap;
             }

@@ -46,7 +46,8 @@ const std::vector<TouchingGesture>& touching_gestures() {
         {"touch_chin", {{right_hand, head}}},
         {"hands_on_hips", {{left_hand, trunk}, {right_hand, trunk}}},
         {"arms_crossed", {{left_hand, trunk}, {right_hand, left_forearm}}},
-        {"hand_on_arm", {{right_hand, left_forearm}}}};
+        {"hand_on_arm", {{right_hand, left_forearm}}},
+        {"plead", {{left_hand, right_hand}}}};
     return gestures;
 }
 
