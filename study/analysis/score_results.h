@@ -7,6 +7,8 @@
 
 namespace chironomia::study::analysis {
 
+// Of each question its cells (a condition, or of a triplet a pair of them), all pairs of cells with p corrected by Holm
+// for the number of pairs of that question, and an analysis of variance.
 std::vector<ScoreResult> compute_scores(const Dataset& data);
 
 // Every two questions with the same scale within each cell, as the thesis compares its factors.

@@ -109,7 +109,7 @@ std::vector<SideBalance> count_sides(const Design& design, std::optional<std::si
 std::vector<std::size_t> places_apart(const Design& design);
 
 // The most of places_apart() that rotating leaves. Sheets take the rows of Williams' design in turn: each condition
-// has each place once in as many rows as there are places, or, of an odd number, twice in twice as many.
+// has each place once in as many rows as there are places; with an odd number of places, twice in twice as many rows.
 std::size_t place_limit(std::size_t places);
 
 // The fewest and the most of something, over all of its kind.

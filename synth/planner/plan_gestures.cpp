@@ -234,7 +234,7 @@ class GesturePlanner {
         return planned;
     }
 
-    // The horizon of a repetition of 1.
+    // On which a stroke may be repeated: those up to the lookahead of the greatest repetition, 1.
     void add_accents(PlannedGesture& planned) const {
         const double horizon = planned.rheme_start + 2 * plan_.variants.repetition_lookahead *
                                                          (planned.rheme_end - planned.rheme_start);

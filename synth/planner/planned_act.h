@@ -13,8 +13,9 @@ struct PlannedAct {
     std::size_t mark = 0;          // of Speech::marks
     Manner manner;                 // the speaker's, overridden by the acts around this one and by itself
     bool sets_activation = false;  // its overall activation is not the speaker's
-    std::size_t word = 0;          // that it is shown with
-    double moment = 0;             // the stress of that word [s]
+    // That it is shown with: of a clause the one with the nuclear accent, else the first accented or last content word.
+    std::size_t word = 0;
+    double moment = 0;  // the stress of that word [s]
 };
 
 // In the order of the marks.

@@ -30,7 +30,7 @@ namespace chironomia::study {
 
 enum ExitCode {
     kExitYes = 0,
-    kExitNo = 1,
+    kExitNo = 1,  // to what a verb was asked: compare (the same?), fit (fit to show?), study check (sound?)
     kExitWrongCommandLine = 2,
     kExitWrongInput = 3,
     kExitOurBug = 4,

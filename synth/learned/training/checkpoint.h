@@ -32,7 +32,8 @@ enum class CheckpointParts {
     all,  // Throws Error if there is nothing to go on from
 };
 
-// Throws Error with the file and what is wrong: missing, damaged, truncated, of another pair.
+// Throws Error with the file and what is wrong: missing, damaged, truncated, or tensors that are not those of the JSON
+// by their SHA-256.
 StoredCheckpoint read_checkpoint(const std::filesystem::path& file, CheckpointParts parts);
 
 // The shapes of its weights. Throws Error as read_checkpoint.
