@@ -270,6 +270,29 @@ double sound_after_pictures(const fs::path& file) {
     return is_film ? start_of(sound) - start_of(*pictures) : 0;
 }
 
+std::optional<std::string> unstated_delay(const fs::path& file) {
+    // As Debian's encoders write, and FFmpeg leaves out where a header or a container says so: LAME's 576 and the 529 of
+    // every decoder; the first frame of FFmpeg's AAC.
+    constexpr double kMp3 = 576 + 529, kAac = 1024;  // [samples]
+    const Owned<AVFormatContext> container = open_media(file, "sound");
+    const AVStream& sound = sound_of(*container, file);
+    const std::string_view kind = container->iformat->name;
+    if (kind != "mp3" && kind != "aac") return std::nullopt;
+    const Owned<AVPacket> packet = make_av_packet();
+    do {
+        av_packet_unref(packet.get());
+        if (av_read_frame(container.get(), packet.get()) < 0) return std::nullopt;
+    } while (packet->stream_index != sound.index);
+    if (av_packet_get_side_data(packet.get(), AV_PKT_DATA_SKIP_SAMPLES, nullptr)) return std::nullopt;
+    const bool is_mp3 = kind == "mp3";
+    return format(
+        "{}: {} not say how much its encoder put before the sound, which is heard late by that: by {:.0f} ms "
+        "if {} wrote it; give the sound as WAV, FLAC or {}",
+        file.string(), is_mp3 ? "an MP3 without a Xing header does" : "bare AAC does",
+        1000 * (is_mp3 ? kMp3 : kAac) / sound.codecpar->sample_rate, is_mp3 ? "LAME" : "FFmpeg",
+        is_mp3 ? "MP3 with that header" : "M4A");
+}
+
 void check_audio(const fs::path& file) {
     SoundReader(file, kLongest + 1, kLongest + 1).read();
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "core/audio.h"
 
@@ -30,6 +31,12 @@ AudioPart read_audio_part(const std::filesystem::path& file, double begin, std::
 // How much later the sound of a film begins than its pictures [s], negative if it begins before them; 0 for a file
 // without pictures. No part of the file but its beginning is read. Throws Error as read_audio if it holds no sound.
 double sound_after_pictures(const std::filesystem::path& file);
+
+// What is heard late by an unknown time: an MP3 without the header of Xing and LAME, and bare AAC (ADTS), do not say how
+// many samples their encoder put before the sound, so nobody leaves them out. One sentence, which gives the delay if
+// LAME or FFmpeg wrote it; none for any other file. No part of the file but its beginning is read. Throws Error as
+// read_audio if it holds no sound.
+std::optional<std::string> unstated_delay(const std::filesystem::path& file);
 
 // Throws Error as read_audio, and keeps nothing.
 void check_audio(const std::filesystem::path& file);

@@ -40,6 +40,10 @@ void warn_of_late_sound(Soundtrack& track, const fs::path& file, const ClipJob& 
         file.string(), std::abs(late), late > 0 ? "after" : "before"));
 }
 
+void warn_of_delay(Soundtrack& track, const fs::path& file) {
+    if (auto warning = unstated_delay(file)) track.warnings.push_back(std::move(*warning));
+}
+
 Audio in_both_channels(const Audio& mono) {
     Audio stereo{.rate = mono.rate, .channels = 2, .samples = {}};
     for (const float sample : mono.samples) stereo.samples.insert(stereo.samples.end(), 2, sample);
@@ -53,7 +57,10 @@ Soundtrack soundtrack_of_voices(const Performer& left_person, const Performer& r
     const Audio right = read_part(right_file, sound_cut_of(job, right_person.voice_cut));
     const VoiceMix mix = mix_voices(left, right);
     Soundtrack track{.sound = mix.sound, .voices = {left, right}};
-    for (const fs::path& file : {left_file, right_file}) warn_of_late_sound(track, file, job);
+    for (const fs::path& file : {left_file, right_file}) {
+        warn_of_late_sound(track, file, job);
+        warn_of_delay(track, file);
+    }
     if (mix.gain < 1) {
         track.warnings.push_back(
             format("{} and {}: together they are too loud by {:.1f} dB; both are made quieter by that",
@@ -109,6 +116,7 @@ Soundtrack read_soundtrack(const ClipJob& job) {
     const bool shows_film =
         std::any_of(people.begin(), people.end(), [](const Performer& each) { return !each.film.empty(); });
     if (!shows_film) warn_of_late_sound(track, *job.audio, job);
+    warn_of_delay(track, *job.audio);
     return track;
 }
 

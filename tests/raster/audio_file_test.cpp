@@ -81,6 +81,49 @@ INSTANTIATE_TEST_SUITE_P(
         return name;
     });
 
+// A click at 1 s.
+size_t loudest_sample(const Audio& sound) {
+    const auto loudest =
+        std::ranges::max_element(sound.samples, {}, [](float sample) { return std::abs(sample); });
+    return static_cast<size_t>(loudest - sound.samples.begin());
+}
+
+TEST(ReadAudio, SaysHowLateASoundIsWhoseFileDoesNotSayIt) {
+    const TemporaryFolder folder;
+    for (const int rate : {44100, 16000}) {
+        Audio click{
+            .rate = rate, .channels = 1, .samples = std::vector<float>(static_cast<size_t>(2 * rate), 0)};
+        for (size_t i = 0; i < 8; ++i) click.samples[static_cast<size_t>(rate) + i] = i % 2 ? -0.9f : 0.9f;
+        const auto lateness = [&](const fs::path& file) {
+            return static_cast<double>(loudest_sample(read_audio(file))) - rate;
+        };
+        const fs::path mp3 = converted(folder, click, "bare.mp3", "-c:a libmp3lame -b:a 128k -write_xing 0");
+        EXPECT_NEAR(lateness(mp3), 1105, 8);
+        EXPECT_EQ(
+            unstated_delay(mp3),
+            format(
+                "{}: an MP3 without a Xing header does not say how much its encoder put before the sound, "
+                "which is heard late by that: by {} ms if LAME wrote it; give the sound as WAV, FLAC or MP3 "
+                "with that header",
+                mp3.string(), rate == 44100 ? 25 : 69));
+        const fs::path aac = converted(folder, click, "bare.aac", "-c:a aac -b:a 128k");
+        EXPECT_NEAR(lateness(aac), 1024, 8);
+        EXPECT_EQ(
+            unstated_delay(aac),
+            format(
+                "{}: bare AAC does not say how much its encoder put before the sound, which is heard late by "
+                "that: by {} ms if FFmpeg wrote it; give the sound as WAV, FLAC or M4A",
+                aac.string(), rate == 44100 ? 23 : 64));
+        for (const auto& [name, options] :
+             {std::pair{"whole.mp3", "-c:a libmp3lame -b:a 128k"},
+              std::pair{"whole.m4a", "-c:a aac -b:a 128k"}, std::pair{"whole.flac", "-c:a flac"}}) {
+            const fs::path whole = converted(folder, click, name, options);
+            EXPECT_NEAR(lateness(whole), 0, 8) << name;
+            EXPECT_EQ(unstated_delay(whole), std::nullopt) << name;
+        }
+    }
+}
+
 TEST(ReadAudio, TakesAnyNumberOfChannels) {
     const TemporaryFolder folder;
     EXPECT_EQ(read_audio(converted(folder, tone(0.2, 16000), "six.wav", "-ac 6")).channels, 6);

@@ -341,8 +341,15 @@ int run(const InfoCommand& command) {
         }
         case FileKind::media: {
             const ClipInfo clip = read_clip_info(file);
-            if (!clip.picture) check_audio(file);
-            return as_asked(describe_clip(clip), clip_text(clip));
+            Json description = describe_clip(clip);
+            std::string text = clip_text(clip);
+            if (clip.picture) return as_asked(description, text);
+            check_audio(file);
+            if (const auto delay = unstated_delay(file)) {
+                description["notes"] = {*delay};
+                text += format("note       {}\n", *delay);
+            }
+            return as_asked(description, text);
         }
     }
     return kExitOurBug;

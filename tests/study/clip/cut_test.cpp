@@ -237,6 +237,15 @@ TEST_F(Soundtracks, FadeOutWhereverAConditionOfAStudyEndsEarly) {
     }
 }
 
+TEST_F(Soundtracks, WarnOfASoundThatIsHeardLate) {
+    const std::filesystem::path bare = folder_ / "bare.mp3";
+    testing::output_of("ffmpeg -nostdin -v error -f lavfi -i sine=440:d=1 -c:a libmp3lame -write_xing 0 " +
+                       testing::quoted(bare));
+    job_.audio = bare;
+    EXPECT_THAT(finished(10).warnings,
+                ElementsAre(HasSubstr("bare.mp3: an MP3 without a Xing header does not say")));
+}
+
 TEST_F(Soundtracks, WarnOfAFilmWhoseSoundBeginsAfterItsPictures) {
     const auto film = [&](const std::string& name, const std::string& late) {
         testing::output_of("ffmpeg -nostdin -v error -f lavfi -i color=s=64x64:r=10:d=1 -itsoffset " + late +
