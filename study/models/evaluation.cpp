@@ -84,13 +84,13 @@ WeightedStatistic pooled(const FeatureData& data, Statistic statistic) {
     };
 }
 
-// The mean of a metric over features; those for which it is not defined are left out.
+// The mean of a metric over features; none where it is not defined for one of them.
 WeightedStatistic mean_over(std::vector<WeightedStatistic> features) {
-    return [features = std::move(features)](std::span<const double> weights) {
+    return [features = std::move(features)](std::span<const double> weights) -> std::optional<double> {
         ChunkScores mean;
         for (const WeightedStatistic& feature : features) {
             const auto value = feature(weights);
-            if (!value) continue;
+            if (!value) return std::nullopt;
             mean.sum += *value;
             ++mean.count;
         }
@@ -134,7 +134,52 @@ std::vector<NamedStatistic> statistics_of(const FeatureData& data, bool unit) {
     return all;
 }
 
-void score_features(SystemScores& system, const Predictions& predictions, const EvaluationOptions& options) {
+// By feature: whether both what people did and what the model predicted vary.
+std::vector<bool> correlated_features(const Predictions& predictions) {
+    std::vector<bool> correlated;
+    const std::size_t width = predictions.features.size();
+    for (std::size_t f = 0; f < width; ++f) {
+        PairSums all;
+        for (const PredictedItem& item : predictions.items) {
+            all.add(sums_of(column_of(item, &PredictedItem::truth, f, width),
+                            column_of(item, &PredictedItem::prediction, f, width), kActive,
+                            predictions.items[0].truth[f]));
+        }
+        correlated.push_back(pearson(all).has_value());
+    }
+    return correlated;
+}
+
+// The features over which all systems have a PCC, so that its means compare; a system that has none of any feature does
+// not count. Says in `notes` which are left out, and why.
+std::vector<bool> shared_correlations(const std::vector<Predictions>& models,
+                                      std::vector<std::string>& notes) {
+    const std::vector<std::string>& features = models.front().features;
+    std::vector<bool> shared(features.size(), true);
+    std::vector<std::vector<std::string>> without(features.size());
+    for (const Predictions& model : models) {
+        const std::vector<bool> own = correlated_features(model);
+        if (std::ranges::find(own, true) == own.end()) continue;
+        for (std::size_t f = 0; f < own.size(); ++f) {
+            if (own[f]) continue;
+            shared[f] = false;
+            without[f].push_back(model.model);
+        }
+    }
+    std::vector<std::string> left_out;
+    for (std::size_t f = 0; f < features.size(); ++f)
+        if (!shared[f]) left_out.push_back(format("{} (of {})", features[f], join(without[f])));
+    if (!left_out.empty()) {
+        notes.push_back(
+            format("PCC of all features together: over {} of {}; those do not vary, or people's do not: {}",
+                   std::ranges::count(shared, true), features.size(), join(left_out)));
+    }
+    return shared;
+}
+
+//   correlated   features whose PCC goes into the mean
+void score_features(SystemScores& system, const Predictions& predictions, const std::vector<bool>& correlated,
+                    const EvaluationOptions& options) {
     const std::vector<std::string> summed = {"mae", "rmse", "pcc", "ks"};
     std::vector<FeatureData> data;
     for (std::size_t f = 0; f < predictions.features.size(); ++f)
@@ -146,7 +191,8 @@ void score_features(SystemScores& system, const Predictions& predictions, const 
             feature.scores.push_back(
                 {statistic.metric, bootstrap(system.items, statistic.of, options.resampling)});
             const auto found = std::find(summed.begin(), summed.end(), statistic.metric);
-            if (found != summed.end())
+            const bool counts = correlated[f] || std::string_view(statistic.metric) != "pcc";
+            if (found != summed.end() && counts)
                 by_metric[static_cast<std::size_t>(found - summed.begin())].push_back(
                     std::move(statistic.of));
         }
@@ -310,6 +356,9 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
         for (const PredictedItem& item : first.items) count += item.truth.size() / first.features.size();
         return count;
     }();
+    std::vector<Predictions> owns;
+    for (const Predictions& model : models) owns.push_back(own_styles(model));
+    const std::vector<bool> correlated = shared_correlations(owns, evaluation.notes);
     const bool pairs = has_pairs(first);
     std::vector<PairMetric> people;
     if (pairs) {
@@ -317,10 +366,10 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
         evaluation.systems.push_back({.model = "people", .items = first.items.size(), .frames = frames});
         evaluation.systems.back().pair = score_pairs(people, nullptr, options.resampling);
     }
-    for (const Predictions& model : models) {
-        const Predictions own = own_styles(model);
+    for (std::size_t m = 0; m < models.size(); ++m) {
+        const Predictions &model = models[m], &own = owns[m];
         SystemScores system{.model = model.model, .items = own.items.size(), .frames = frames};
-        score_features(system, own, options);
+        score_features(system, own, correlated, options);
         if (pairs) {
             system.pair = score_pairs(pair_metrics(own, &PredictedItem::prediction, options), &people,
                                       options.resampling);
@@ -329,7 +378,7 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
         if (has_transfers(model)) system.style = score_styles(model, options.resampling);
         evaluation.systems.push_back(std::move(system));
     }
-    evaluation.notes = notes_on(evaluation);
+    for (std::string& note : notes_on(evaluation)) evaluation.notes.push_back(std::move(note));
     return evaluation;
 }
 

@@ -48,7 +48,8 @@ struct SystemScores {
     std::string model;  // "amii"; "people" for what was recorded, which has a pair alone
     std::size_t items = 0;
     std::size_t frames = 0;
-    std::vector<MetricScore> overall;  // mae, rmse, pcc, ks: means over features
+    // Means over features of mae, rmse and ks, and of pcc over those of which all systems have one.
+    std::vector<MetricScore> overall;
     std::vector<FeatureScores> features;
     std::optional<PairScores> pair;    // of dyads with AU12
     std::optional<PoseScores> poses;   // of models of a body

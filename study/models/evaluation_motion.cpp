@@ -260,6 +260,17 @@ Json compare_series(const std::string& name, std::span<const float> truth, std::
     return row;
 }
 
+// What a face has and the other lacks is compared with nothing.
+void note_missing(const FaceColumns& face, const std::string& source, const FaceColumns& other,
+                  const std::string& other_source, std::vector<std::string>& notes) {
+    std::vector<std::string> missing;
+    for (const std::string& name : face.names)
+        if (std::ranges::find(other.names, name) == other.names.end()) missing.push_back(name);
+    if (!missing.empty())
+        notes.push_back(
+            format("{}: has {}, which {} lacks; not compared", source, join(missing), other_source));
+}
+
 std::vector<Landmark> shared_points(std::span<const BodyPaths> bodies) {
     std::vector<Landmark> shared;
     for (const Landmark point : kUpperBody) {
@@ -395,6 +406,8 @@ void measure_against(const Motion& motion, const Motion& reference, MotionMeasur
     const auto [ours, truth] = aligned(motion, reference, measures.notes);
     if (ours.face && truth.face) {
         const FaceColumns a = columns_of(truth), b = columns_of(ours);
+        note_missing(b, motion.source, a, reference.source, measures.notes);
+        note_missing(a, reference.source, b, motion.source, measures.notes);
         for (std::size_t c = 0; c < b.names.size(); ++c) {
             const auto found = std::find(a.names.begin(), a.names.end(), b.names[c]);
             if (found == a.names.end()) continue;

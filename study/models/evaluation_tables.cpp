@@ -113,9 +113,10 @@ Table summary_of(const Evaluation& evaluation) {
     MetricTable table(
         {.id = "summary",
          .title = format("All features together ({})", where(evaluation)),
-         .note = format("Means over features on the normalised scale, with 95 % intervals from "
-                        "{} resamples of the records.",
-                        evaluation.options.resampling.samples),
+         .note = format(
+             "Means over features on the normalised scale, PCC over those of which all systems have one, "
+             "with 95 % intervals from {} resamples of the records.",
+             evaluation.options.resampling.samples),
          .columns = {{"model", "Model"}, {"n", "n", Show::whole}, {"frames", "Frames", Show::whole}}});
     for (const SystemScores& system : evaluation.systems) {
         if (system.overall.empty()) continue;

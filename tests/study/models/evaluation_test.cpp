@@ -84,6 +84,25 @@ TEST(Evaluate, CountsUtterancesInWhichNothingVaries) {
     EXPECT_LT(*score(brow.scores, "pcc").value, 0.99);
 }
 
+// One system holds Rx still, and another holds all: of AU1 alone two systems have a correlation.
+TEST(Evaluate, AveragesCorrelationsOverFeaturesOfWhichAllSystemsHaveOne) {
+    Predictions worse = sample_faces("worse"), still = sample_faces("still");
+    for (PredictedItem& item : worse.items)
+        for (std::size_t i = 1; i < item.prediction.size(); i += 4) item.prediction[i] = 0;
+    Predictions flat = sample_faces("flat");
+    for (PredictedItem& item : flat.items)
+        for (std::size_t i = 1; i < item.prediction.size(); i += 2) item.prediction[i] = 0.3f;
+    for (PredictedItem& item : still.items) std::ranges::fill(item.prediction, 0.3f);
+    EXPECT_LT(*score(evaluate({worse, still}).systems[0].overall, "pcc").value, 0.9);
+    const Evaluation found = evaluate({worse, flat, still});
+    EXPECT_NEAR(*score(found.systems[0].overall, "pcc").value, 1, 1e-6);
+    EXPECT_NEAR(*score(found.systems[1].overall, "pcc").value, 1, 1e-6);
+    EXPECT_FALSE(score(found.systems[2].overall, "pcc").value);
+    EXPECT_THAT(found.notes,
+                Contains("PCC of all features together: over 1 of 2; those do not vary, or people's do "
+                         "not: Rx (of flat)"));
+}
+
 TEST(Evaluate, ComparesAModelWithPeopleInTheSamePair) {
     Predictions still = sample_dyad("il-lstm", 0);
     for (PredictedItem& item : still.items) std::fill(item.prediction.begin(), item.prediction.end(), 0.0f);
