@@ -10,6 +10,7 @@
 #include "raster/images/text_line.h"
 #include "scenes/scene_file.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/signal/late_beginning.h"
 #include "study/clip/recipe_memory.h"
 
 namespace chironomia::study {
@@ -137,6 +138,20 @@ void cut(PerformerMotions& motions, const Performer& performer, const ClipJob& j
     motions.frames = shown.count;
 }
 
+// The file may be a part of a longer recording, whose sound begins where the file does, or with the recording.
+std::vector<std::string> warn_of_late_beginnings(const PerformerMotions& motions) {
+    std::vector<std::string> warnings;
+    for (const auto* motion : {&motions.body, &motions.face}) {
+        const auto first = *motion ? late_beginning_of(**motion) : std::nullopt;
+        if (!first) continue;
+        warnings.push_back(
+            format("{}: its times begin at {:.6g} s, which is second 0 of the clip; a sound of the "
+                   "whole recording is cut to it by --audio-cut {:.6g}:",
+                   (*motion)->source, *first, *first));
+    }
+    return warnings;
+}
+
 }  // namespace
 
 CompanionFiles PerformerMotions::companions() const {
@@ -159,6 +174,7 @@ PerformerMotions read_motions(const Performer& performer) {
 
 PerformerMotions read_motions(const Performer& performer, const ClipJob& job) {
     PerformerMotions motions = read_motions(performer);
+    if (!job.sound_cut && !performer.voice_cut) motions.warnings = warn_of_late_beginnings(motions);
     if (job.cut) cut(motions, performer, job);
     if (!performer.anchor) return motions;
     for (auto* motion : {&motions.body, &motions.face})

@@ -105,6 +105,7 @@ struct PerformerMotions {
     std::optional<Motion> body;           // may also hold a face
     std::optional<Motion> face;           // of a file of its own
     std::optional<std::size_t> frames{};  // of the clip, if a cut says how many
+    std::vector<std::string> warnings{};  // of times that begin late
 
     CompanionFiles companions() const;
 };

@@ -133,7 +133,8 @@ Performance perform(const Performer& performer, const ClipJob& job) {
     performance.face_file = performer.face.value_or(performer.motion);
     performance.motion_file = performer.motion.empty() ? performance.face_file : performer.motion;
     performance.companions = motions.companions();
-    performance.warnings = warnings_of(fit, performance);
+    performance.warnings = motions.warnings;
+    add_notes(performance.warnings, warnings_of(fit, performance));
     performance.fit = std::move(fit.fit);
     performance.face = std::move(fit.face);
     add_notes(performance.warnings, warn_of_facing(performer, performance));

@@ -52,6 +52,7 @@ Performance perform_stick(const Performer& performer, const PerformerMotions& mo
     performance.motion_file = performance.face_file = performer.motion;
     performance.companions = motions.companions();
     performance.notes = motions.body->notes;
+    performance.warnings = motions.warnings;
     if (!hands) performance.modes.push_back(format("hands {}", to_text(HandsMode::hidden)));
     if (!face) performance.modes.push_back(format("face {}", to_text(FaceMode::mask)));
     if (motions.body->face) {

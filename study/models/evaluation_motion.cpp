@@ -11,8 +11,10 @@
 #include "core/text.h"
 #include "skinning/body/joint_landmarks.h"
 #include "skinning/body/keypoint_layout.h"
+#include "skinning/signal/late_beginning.h"
 #include "skinning/signal/resample.h"
 #include "study/measure/adaptation.h"
+#include "study/measure/beat_alignment.h"
 #include "study/measure/kolmogorov.h"
 #include "study/measure/lagged_correlation.h"
 #include "study/measure/likeness.h"
@@ -328,6 +330,13 @@ std::pair<Motion, Motion> aligned(const Motion& motion, const Motion& other,
     if (motion.fps != other.fps) {
         notes.push_back(format("{}: {:g} frames/s, resampled to the {:g} of {}", motion.source, motion.fps,
                                other.fps, other.source));
+    }
+    const auto first = late_beginning_of(motion), other_first = late_beginning_of(other);
+    if (first.value_or(0) != other_first.value_or(0)) {
+        notes.push_back(
+            format("{}: its times begin at {:.6g} s, those of {} at {:.6g} s; compared from their first "
+                   "frames on",
+                   motion.source, first.value_or(0), other.source, other_first.value_or(0)));
     }
     const Motion same_rate = motion.fps == other.fps ? motion : resample(motion, other.fps);
     const size_t frames = std::min(same_rate.frames, other.frames);

@@ -7,9 +7,11 @@
 
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/files/wav_file.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "tests/study/process.h"
+#include "tests/study/sounds.h"
 #include "tests/support/support.h"
 
 namespace chironomia::study {
@@ -18,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::Outcome;
 using testing::run_chironomia;
 using testing::source_dir;
@@ -78,6 +81,37 @@ TEST(FaceCli, SaysWhatAnAvatarCannotShowAndWhatIsHeld) {
     EXPECT_EQ(fitted_face["cannot_show"][0]["unit"], "AU12");
     EXPECT_EQ(fitted_face["head"], "replaced");
     EXPECT_EQ(report["recipe"]["performers"][0]["face"][0], sha256_of_file(face));
+}
+
+// A part of a recording: its first row is at 5 s.
+TEST(FaceCli, WarnsOfTimesThatBeginLate) {
+    const TemporaryFolder folder;
+    std::string late = "timestamp,success,AU12_r\n", points = "frame,nose_x,nose_y,nose_z";
+    for (const char* name : {"left_shoulder", "right_shoulder", "left_wrist", "right_wrist"})
+        for (const char axis : {'x', 'y', 'z'}) points += format(",{}_{}", name, axis);
+    points += '\n';
+    for (int row = 0; row < 10; ++row) {
+        late += format("{:.2f},1,{}\n", 5 + row / 20.0, 0.1 * row);
+        points += format("{},0,1.6,0.1,0.2,1.4,0,-0.2,1.4,0,0.3,1,0.1,-0.3,1,0.{}\n", 100 + row, row);
+    }
+    const fs::path face = folder / "late.csv", body = folder / "points.csv", sound = folder / "s.wav";
+    write_text(face, late);
+    write_text(body, points);
+    write_wav(sound, testing::sine({.seconds = 6}));
+    const std::vector<std::string> files = {"--motion", body.string(), "--motion-fps", "20",
+                                            "--face",   face.string(), "--audio",      sound.string(),
+                                            "--frames", "0:2"};
+    const Outcome outcome = run_chironomia(render(folder / "c.mp4", files));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const char* name : {"late.csv", "points.csv"}) {
+        EXPECT_THAT(outcome.err,
+                    HasSubstr(format("{}: its times begin at 5 s, which is second 0 of the clip; a sound "
+                                     "of the whole recording is cut to it by --audio-cut 5:\n",
+                                     (folder / name).string())));
+    }
+    std::vector<std::string> cut = files;
+    cut.insert(cut.end(), {"--audio-cut", "5:"});
+    EXPECT_THAT(run_chironomia(render(folder / "c.mp4", cut)).err, Not(HasSubstr("its times begin")));
 }
 
 TEST(FaceCli, BakesTheFaceIntoAGlb) {

@@ -8,6 +8,7 @@
 #include "core/quantile.h"
 #include "core/text.h"
 #include "skinning/signal/frame_rate.h"
+#include "skinning/signal/late_beginning.h"
 
 namespace chironomia {
 namespace {
@@ -289,10 +290,7 @@ Motion face_of_rows(const FaceRows& rows, std::optional<double> fps) {
     motion.face->channels = rows.channels;
     for (size_t t = 0; t < motion.frames; ++t)
         append_frame(*motion.face, rows, places.at(rows.times.front() + static_cast<double>(t) / rate));
-    if (rows.times.front() != 0 && !fps) {
-        motion.notes.push_back(
-            format("time: the first row is at {:.6g} s, which is frame 0 here", rows.times.front()));
-    }
+    if (rows.times.front() != 0) motion.notes.push_back(first_time_note(rows.times.front()));
     motion.notes.push_back(
         format("rate: {:.6g} frames/s, {}", rate, fps ? "set by hand" : "by the times of the rows"));
     if (auto note = bridged_note(*motion.face, rows, rate)) motion.notes.push_back(std::move(*note));

@@ -186,7 +186,7 @@ TEST_F(OpenFaceFile, SaysWhatItLeavesOut) {
     EXPECT_EQ(motion.face->intensities, (std::vector<float>{5, 0}));
     EXPECT_THAT(motion.notes, Contains("units that are not known, left out: AU11_r"));
     EXPECT_THAT(motion.notes, Contains("AU28_c: present in 1 rows, but without intensity, left out"));
-    EXPECT_THAT(motion.notes, Contains("time: the first row is at 2.5 s, which is frame 0 here"));
+    EXPECT_THAT(motion.notes, Contains("time: the first frame is at 2.5 s, which is second 0 here"));
 }
 
 TEST_F(OpenFaceFile, RefusesWhatOpenFaceWouldNotWrite) {
