@@ -285,6 +285,7 @@ void add(Uses& uses, const MeasureCommand& command) {
     uses.reads("--against", command.against, kOpenPose);
     uses.reads("--source", command.source, kOpenPose);
     uses.reads("--partner", command.partner, kOpenPose);
+    uses.reads("--audio", command.audio);
 }
 
 // As the system sees them, without a last slash.

@@ -93,6 +93,7 @@ const std::vector<MeasureColumn> kNearColumns = {
     {"pck_01", "PCK .1"},
     {"pck_02", "PCK .2"},
     {"frechet", "Frechet"},
+    {"velocity_frechet", "of velocities"},
 };
 const std::vector<MeasureColumn> kStyleColumns = {
     {"metric", "Metric", analysis::Show::text},
@@ -106,6 +107,10 @@ const std::vector<MeasureColumn> kPairColumns = {{"tlcc", "TLCC"},
                                                  {"dtw", "DTW", analysis::Show::one},
                                                  {"sync", "Sync (proposed)", analysis::Show::one},
                                                  {"el", "EL (proposed)", analysis::Show::one}};
+const std::vector<MeasureColumn> kBeatColumns = {{"beats", "Beats of the motion", analysis::Show::whole},
+                                                 {"onsets", "Onsets of the sound", analysis::Show::whole},
+                                                 {"alignment", "Beat alignment (BC)"},
+                                                 {"chance", "by chance"}};
 
 }  // namespace
 
@@ -140,13 +145,18 @@ std::vector<analysis::Table> tables_of(const std::vector<MotionMeasures>& all) {
                   .rows = &MotionMeasures::pair,
                   .columns = kPairColumns},
                  all));
+    add(table_of({.id = "beats",
+                  .title = "Beats of motion and sound (sigma 0.05 s)",
+                  .rows = &MotionMeasures::beats,
+                  .columns = kBeatColumns},
+                 all));
     return tables;
 }
 
 Json to_json(const MotionMeasures& measures) {
     return {{"motion", measures.source}, {"body", measures.body},   {"face", measures.face},
             {"near", measures.near},     {"style", measures.style}, {"pair", measures.pair},
-            {"notes", measures.notes}};
+            {"beats", measures.beats},   {"notes", measures.notes}};
 }
 
 }  // namespace chironomia::study

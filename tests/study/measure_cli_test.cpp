@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/files/wav_file.h"
 #include "core/text.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "tests/study/process.h"
@@ -211,6 +213,132 @@ TEST_F(Measure, HasNoCorrelationOfAGazeThatHoldsStill) {
         const bool still = row["feature"] == "Rz" || row["feature"].get<std::string>().starts_with("gaze");
         EXPECT_EQ(row["pcc"].is_null(), still) << row.dump();
     }
+}
+
+TEST_F(Measure, SaysWhichFeaturesOneOfBothFacesLacks) {
+    Motion more = smiling(0);
+    more.face->channels.push_back({.unit = 4});
+    std::vector<float> intensities;
+    for (const float smile : more.face->intensities) intensities.insert(intensities.end(), {smile, 1});
+    more.face->intensities = intensities;
+    const std::string a = write("a.h5", smiling(0)), b = write("b.h5", more);
+    EXPECT_THAT(measure({a, "--against", b})[0]["notes"].dump(),
+                HasSubstr(format("{}: has AU4, which {} lacks; not compared", b, a)));
+}
+
+// Of three points the wrist alone is further away along one axis of two, by 0.05 widths a frame and unit of speed.
+constexpr double kL1 = 0.95 / 6;
+
+TEST_F(Measure, ComparesFoldersByTheNamesOfTheirFiles) {
+    for (const char* folder : {"made", "true", "emage", "empty"})
+        std::filesystem::create_directory(folder_ / folder);
+    write("made/a.h5", reaching(2));
+    write("made/b.h5", reaching(3));
+    write("emage/res_a.h5", reaching(2));
+    write("emage/gt_a.h5", reaching());
+    for (const char* name : {"true/a.h5", "true/b.h5", "true/c.h5"}) write(name, reaching());
+    write_text(folder_ / "made/readme.txt", "no motion");
+    const std::string made = (folder_ / "made").string(), recorded = (folder_ / "true").string();
+    const Outcome shown = run_chironomia({"measure", made, "--against", recorded, "--json"});
+    ASSERT_EQ(shown.exit_code, 0) << shown.err;
+    EXPECT_EQ(shown.err, format("{}: lacks 1 of the files of {}, which do not count: c\n", made, recorded));
+    const Json all = Json::parse(shown.out);
+    ASSERT_EQ(all.size(), 4u);
+    EXPECT_NEAR(all[0]["near"][0]["l1"].get<double>(), kL1, 1e-5);
+    EXPECT_EQ(all[2]["motion"], made + ": mean of 2");
+    EXPECT_NEAR(all[2]["near"][0]["l1"].get<double>(), 1.5 * kL1, 1e-5);
+    EXPECT_NEAR(all[2]["body"][0]["wrist_velocity"].get<double>(), 2.5, 1e-3);
+    EXPECT_EQ(all[3]["motion"], made + ": all 2 together");
+    // The file of EMAGE's folder is compared with the one beside it.
+    const std::string emage = (folder_ / "emage").string();
+    EXPECT_NEAR(measure({emage, "--against", emage})[0]["near"][0]["l1"].get<double>(), kL1, 1e-5);
+    // Two systems have a mean each.
+    EXPECT_EQ(measure({made, emage})[4]["motion"], emage + ": mean of 1");
+    EXPECT_EQ(refusal({(folder_ / "empty").string()}, 3),
+              format("chironomia: {}: holds no motion; give a folder with BVH, keypoints or OpenPose in it\n",
+                     (folder_ / "empty").string()));
+    write("made/d.h5", reaching());
+    EXPECT_THAT(refusal({made, "--against", recorded}, 3),
+                HasSubstr(format("made/d.h5: nothing in {} is called d; files belong together by their names",
+                                 recorded)));
+    write_text(folder_ / "made/d.csv", "time,AU12\n");
+    EXPECT_THAT(refusal({made}, 3),
+                HasSubstr("made/d.h5: both are called d; keep one of them in the folder"));
+}
+
+// The places of the wrists differ by a constant, their changes not at all.
+TEST_F(Measure, TakesTheFrechetDistanceOfAllPosesOfAFolder) {
+    for (const char* folder : {"made", "true"}) std::filesystem::create_directory(folder_ / folder);
+    for (const char* name : {"a.h5", "b.h5"}) {
+        Motion motion = reaching(), moved = reaching();
+        for (size_t t = 0; t < motion.frames; ++t)
+            moved.keypoints->points[4 * t + 3].y -= 0.2f;  // half the width of the shoulders
+        write(std::string("true/") + name, motion);
+        write(std::string("made/") + name, moved);
+    }
+    const Json all = measure({(folder_ / "made").string(), "--against", (folder_ / "true").string()});
+    const Json& together = all[3]["near"][0];
+    EXPECT_EQ(together["frames"], 40);
+    EXPECT_NEAR(together["frechet"].get<double>(), 0.25, 1e-4);
+    EXPECT_NEAR(together["velocity_frechet"].get<double>(), 0, 1e-4);
+}
+
+// A wrist that turns back at 0.5, 1.5, ... s, where clicks are heard, or `late` seconds before them.
+TEST_F(Measure, FindsBeatsOfAMotionOnThoseOfASound) {
+    Motion motion = reaching();
+    motion.fps = 60;
+    motion.frames = 600;
+    motion.keypoints->points.clear();
+    for (int t = 0; t < 600; ++t) {
+        const auto wave = static_cast<float>(0.1 * std::sin(std::numbers::pi * (t + 0.25) / 60));
+        motion.keypoints->points.insert(
+            motion.keypoints->points.end(),
+            {{0, 1.4f, 0}, {0.2f, 1.4f, 0}, {-0.2f, 1.4f, 0}, {-0.3f, 1 + wave, 0}});
+    }
+    motion.keypoints->confidence.assign(2400, 1);
+    const auto alignment = [&](double late) {
+        Audio clicks{.rate = 16000, .channels = 1, .samples = std::vector<float>(160000, 0)};
+        for (int n = 0; n < 9; ++n) {
+            const auto begin = static_cast<size_t>((n + 0.5 + late) * clicks.rate);
+            for (size_t i = 0; i < 160; ++i) clicks.samples[begin + i] = i % 2 ? 0.5f : -0.5f;
+        }
+        write_wav(folder_ / "clicks.wav", clicks);
+        return measure({write("a.h5", motion), "--audio", (folder_ / "clicks.wav").string()})[0]["beats"][0];
+    };
+    const Json on = alignment(0), off = alignment(0.25);
+    EXPECT_EQ(on["beats"], 10);
+    EXPECT_EQ(on["onsets"], 9);
+    EXPECT_GT(on["alignment"].get<double>(), 0.85);
+    EXPECT_LT(off["alignment"].get<double>(), 0.01);
+    // A Gaussian of sigma 0.05 s around one onset in a second.
+    EXPECT_NEAR(on["chance"].get<double>(), 0.05 * std::sqrt(2 * std::numbers::pi), 0.03);
+    EXPECT_THAT(
+        run_chironomia({"measure", write("a.h5", motion), "--audio", (folder_ / "clicks.wav").string()}).out,
+        HasSubstr("Beat alignment (BC)"));
+}
+
+TEST_F(Measure, SaysThatBeatsNeedShouldersAndASoundAsLong) {
+    write_wav(folder_ / "s.wav", {.rate = 16000, .channels = 1, .samples = std::vector<float>(160000, 0)});
+    const std::string sound = (folder_ / "s.wav").string();
+    EXPECT_THAT(measure({write("f.h5", smiling(0)), "--audio", sound})[0]["notes"].dump(),
+                HasSubstr("f.h5: has no shoulders, so its beats were not measured"));
+    EXPECT_THAT(measure({write("a.h5", reaching()), "--audio", sound})[0]["notes"].dump(),
+                HasSubstr("a.h5: 2.00 s, and its sound 10.00 s; beats are those of the first 2.00 s"));
+}
+
+// Times of a table begin at 5 s, those of the reference at 0.
+TEST_F(Measure, SaysThatTimesBeginElsewhere) {
+    const auto table = [&](const char* name, double begin) {
+        std::string text = "timestamp,AU12_r\n";
+        for (int t = 0; t < 50; ++t) text += format("{:.2f},{:.2f}\n", begin + t / 25.0, 1 + std::sin(t));
+        write_text(folder_ / name, text);
+        return (folder_ / name).string();
+    };
+    const std::string late = table("late.csv", 5), reference = table("reference.csv", 0);
+    EXPECT_THAT(measure({late, "--against", reference})[0]["notes"].dump(),
+                HasSubstr(format(
+                    "{}: its times begin at 5 s, those of {} at 0 s; compared from their first frames on",
+                    late, reference)));
 }
 
 // `fps` times a second.

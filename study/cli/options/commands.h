@@ -109,6 +109,7 @@ struct MeasureCommand {
     std::optional<std::filesystem::path> against;  // what people did, or the style that was aimed at
     std::optional<std::filesystem::path> source;   // whose style was to become that of `against`
     std::optional<std::filesystem::path> partner;  // who talks with them
+    std::optional<std::filesystem::path> audio;    // that goes with them
     bool json = false;
 };
 
