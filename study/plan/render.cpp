@@ -39,8 +39,10 @@ int read_side(const JsonValue& value, int multiple) {
 
 // Chroma is stored for blocks of 2 x 2 pixels, and each of two figures in one video has half its width.
 RenderSize read_size(const JsonValue& value, Presentation presentation) {
+    if (!value.json().is_array() || value.json().size() != 2)
+        value.refuse(
+            format("is {}, a width and a height in pixels are needed, such as [1280, 720]", value.shown()));
     const std::vector<JsonValue> sides = value.items(2);
-    if (sides.size() != 2) value.refuse(format("is {}, a width and a height are needed", value.shown()));
     const int across = presentation == Presentation::one_video ? 4 : 2;
     return {.width = read_side(sides[0], across), .height = read_side(sides[1], 2)};
 }

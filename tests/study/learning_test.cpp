@@ -218,6 +218,15 @@ TEST_F(Learning, GoesFromDyadsToSomebodyWhoListens) {
     EXPECT_THAT(motion.face->channels, Contains(FaceChannel{12}));
 }
 
+TEST_F(Learning, RefusesWeightsWithoutADescription) {
+    write_text(file("foreign.safetensors"), std::string("\2\0\0\0\0\0\0\0{}", 10));
+    const Outcome outcome = run_chironomia({"info", file("foreign.safetensors")});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err,
+                HasSubstr("foreign.safetensors: has no foreign.json beside it, by which train describes "
+                          "each of its models; it is not one of them, or give back its file"));
+}
+
 TEST_F(Learning, RefusesACheckpointOfAnotherModel) {
     write_dyads(folder_ / "dyads");
     train("il-lstm", "dyads", "m.safetensors");

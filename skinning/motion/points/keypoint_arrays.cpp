@@ -140,6 +140,12 @@ void refuse_body_model(const std::vector<NumpyArray>& arrays, const std::string&
 // What to do with arrays none of which holds points: those of sets of motions have features instead.
 std::string remedy_without_points(const std::vector<NumpyArray>& arrays) {
     for (const NumpyArray& array : arrays) {
+        if (array.type.ends_with('O')) {
+            return format(
+                "{} was pickled, as NumPy does with dictionaries and lists, in which any program could be, "
+                "so it is not read; save the numbers in it as arrays, by numpy.savez",
+                describe(array));
+        }
         if (array.shape.size() != 2) continue;
         if (array.shape[1] == 263 || array.shape[1] == 251) {
             return format(

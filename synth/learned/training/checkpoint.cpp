@@ -83,6 +83,17 @@ void check_order(const fs::path& file, const char* what, const std::vector<Featu
                        file.string(), what, join(names_of(features)), join(needed)));
 }
 
+Json read_description(const fs::path& stem) {
+    const fs::path json = beside(stem, ".json"), weights = beside(stem, kWeights);
+    if (fs::exists(weights) && !fs::exists(json)) {
+        throw Error(
+            format("{}: has no {} beside it, by which train describes each of its models; it is not one of "
+                   "them, or give back its file",
+                   weights.string(), json.filename().string()));
+    }
+    return read_json(json);
+}
+
 }  // namespace
 
 fs::path checkpoint_stem(const fs::path& file) {
@@ -107,9 +118,8 @@ void write_checkpoint(const fs::path& file, const StoredCheckpoint& checkpoint) 
 
 StoredCheckpoint read_checkpoint(const fs::path& file, CheckpointParts parts) {
     const fs::path stem = checkpoint_stem(file);
-    const fs::path path = beside(stem, ".json");
-    const Json json = read_json(path);
-    const JsonValue value(json, path.string());
+    const Json json = read_description(stem);
+    const JsonValue value(json, beside(stem, ".json").string());
     StoredCheckpoint checkpoint{.description = checkpoint_of(value)};
     // A description that stands beside other weights describes nothing.
     const fs::path weights = file_with(stem, kWeights, value.at("weights").text());
@@ -124,7 +134,7 @@ StoredCheckpoint read_checkpoint(const fs::path& file, CheckpointParts parts) {
 
 TensorShapes read_weight_shapes(const fs::path& file) {
     const fs::path stem = checkpoint_stem(file);
-    const Json json = read_json(beside(stem, ".json"));
+    const Json json = read_description(stem);
     const JsonValue value(json, beside(stem, ".json").string());
     return read_tensor_shapes(file_with(stem, kWeights, value.at("weights").text()));
 }

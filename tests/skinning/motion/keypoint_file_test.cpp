@@ -771,6 +771,13 @@ TEST(KeypointFile, RefusesArraysThatAreAmbiguous) {
         EXPECT_THAT(refusal_of([&] { read_motion(folder / "features.npy", {.fps = 30}); }),
                     HasSubstr(remedy));
     }
+    const std::string header = "{'descr': '|O', 'fortran_order': False, 'shape': (), }                    \n";
+    write_text(folder / "pickled.npy", std::string("\x93NUMPY\1\0", 8) + static_cast<char>(header.size()) +
+                                           '\0' + header + "\x80\x04}.");
+    EXPECT_THAT(
+        refusal_of([&] { read_motion(folder / "pickled.npy", {.fps = 30}); }),
+        HasSubstr("array () was pickled, as NumPy does with dictionaries and lists, in which any program "
+                  "could be, so it is not read; save the numbers in it as arrays, by numpy.savez"));
     EXPECT_THAT(
         refusal_of([] { read_motion(fixture("smpl_parts.npz")); }),
         HasSubstr(

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/files/files.h"
+#include "core/text.h"
 #include "tests/study/sample_plan.h"
 #include "tests/support/support.h"
 
@@ -386,10 +387,13 @@ TEST_F(ReadPlan, RefusesSizesThatCannotBeEncoded) {
     json["render"]["size"] = {1280, 99999999999ull};
     EXPECT_EQ(refusal(json),
               "plan.json: render.size[1]: is 99999999999, a whole number from 32 to 4096 is needed");
-    json["render"]["size"] = {1280};
-    EXPECT_EQ(refusal(json), "plan.json: render.size: has 1 entries, at least 2 are needed");
-    json["render"]["size"] = {1280, 720, 3};
-    EXPECT_EQ(refusal(json), "plan.json: render.size: is [1280,720,3], a width and a height are needed");
+    for (const Json& size : {Json{1280}, Json{1280, 720, 3}, Json("1280x720")}) {
+        json["render"]["size"] = size;
+        EXPECT_EQ(refusal(json),
+                  format("plan.json: render.size: is {}, a width and a height in pixels are needed, "
+                         "such as [1280, 720]",
+                         size.dump()));
+    }
     json["render"]["size"] = {1282, 720};
     json["presentation"] = "one video";
     EXPECT_EQ(refusal(json),
