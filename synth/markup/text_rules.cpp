@@ -285,7 +285,8 @@ bool Marker::is_repeated_pointing(const Cue& cue, std::size_t word) {
 }
 
 // Whether a negation stands before the word, with no comma and no "but" between them: "not happy", "ne suis pas
-// content", but "not only happy", "not sad but happy".
+// content", but "not only happy", "not sad but happy". In German it may also stand behind it, with no conjunction between
+// them: "ich freue mich nicht".
 bool Marker::is_negated(const Stretch& clause, std::size_t word) const {
     constexpr std::array<std::string_view, 3> kOnly = {"only", "seulement", "nur"};
     for (std::size_t w = word; w-- > clause.first && pauses_[w].depth == Depth::none;) {
@@ -294,6 +295,12 @@ bool Marker::is_negated(const Stretch& clause, std::size_t word) const {
         const bool is_only = std::find(kOnly.begin(), kOnly.end(), letters_[w + 1]) != kOnly.end();
         const bool is_certain = cue && cue->kind == MarkKind::certainty && length_of(*cue) > 1;  // "no doubt"
         if (vocabulary_.is_negation(letters_[w]) && !is_only && !is_certain) return true;
+    }
+    if (!vocabulary_.is_negated_behind(letters_[word])) return false;
+    for (std::size_t w = word + 1; w < clause.end && pauses_[w - 1].depth == Depth::none; ++w) {
+        if (vocabulary_.is_conjunction(letters_[w])) return false;
+        const bool is_only = w + 1 < clause.end && std::ranges::find(kOnly, letters_[w + 1]) != kOnly.end();
+        if (vocabulary_.is_negation_behind(letters_[w]) && !is_only) return true;
     }
     return false;
 }

@@ -63,6 +63,11 @@ Vocabulary::Vocabulary(const std::string& language) : is_known_(true) {
                                                                {"abbreviations", abbreviations_}}) {
         for (std::string& word : whole.at(key).texts(1)) words.insert(std::move(word));
     }
+    for (const auto& [key, words] :
+         {std::pair{"negated_behind", &negated_behind_}, std::pair{"negations_behind", &negations_behind_}}) {
+        if (const auto behind = whole.find(key))
+            for (std::string& word : behind->texts(1)) words->insert(std::move(word));
+    }
     for (const Words* words : {&auxiliaries_, &conjunctions_, &question_words_, &hesitations_})
         function_words_.insert(words->begin(), words->end());
     for (const JsonValue& item : whole.at("cues").items(1)) {

@@ -44,6 +44,10 @@ class Vocabulary {
     bool is_intensifier(std::string_view word) const { return intensifiers_.contains(word); }
     // "not", "never"; of "n'est" the part with the apostrophe.
     bool is_negation(std::string_view word) const;
+    // Whether a negation behind a word denies it, too, as "ich freue mich nicht" does, but not "leider kommt er nicht";
+    // and which do.
+    bool is_negated_behind(std::string_view word) const { return negated_behind_.contains(word); }
+    bool is_negation_behind(std::string_view word) const { return negations_behind_.contains(word); }
     bool is_abbreviation(std::string_view word) const { return abbreviations_.contains(word); }
 
     // The longest cue that begins at words[at], or nothing.
@@ -56,7 +60,7 @@ class Vocabulary {
     explicit Vocabulary(const std::string& language);  // "english"
 
     Words function_words_, auxiliaries_, conjunctions_, imperatives_, question_words_, hesitations_,
-        intensifiers_, negations_, abbreviations_;
+        intensifiers_, negations_, negated_behind_, negations_behind_, abbreviations_;
     std::map<std::string, std::vector<Cue>, std::less<>> cues_;  // by their first word, longer ones first
     bool is_known_ = false;
 };

@@ -104,6 +104,13 @@ TEST(TextRules, ANegatedFeelingIsNotShown) {
     EXPECT_THAT(feelings("I am not sad but happy."), ElementsAre("emotion=joy(happy)"));
     EXPECT_THAT(feelings("She is no doubt happy."), ElementsAre("emotion=joy(happy)"));
     EXPECT_THAT(feelings("Ich bin wütend, nicht traurig.", "de"), ElementsAre("emotion=anger(wütend)"));
+    EXPECT_THAT(feelings("Ich freue mich nicht.", "de"), IsEmpty());
+    EXPECT_THAT(feelings("Schön ist das wirklich nicht.", "de"), IsEmpty());
+    EXPECT_THAT(feelings("Ich freue mich nicht nur heute.", "de"), ElementsAre("emotion=joy(freue)"));
+    EXPECT_THAT(feelings("Ich bin glücklich und du bist es nicht.", "de"),
+                ElementsAre("emotion=joy(glücklich)"));
+    EXPECT_THAT(feelings("Leider kommt er nicht.", "de"), ElementsAre("emotion=sadness(Leider)"));
+    EXPECT_THAT(feelings("Happy people do not cry.", "en"), ElementsAre("emotion=joy(Happy)"));
 }
 
 TEST(TextRules, FindRelationsPropertiesPlacesAndFeelings) {
