@@ -266,6 +266,27 @@ TEST_F(Measure, ComparesFoldersByTheNamesOfTheirFiles) {
                 HasSubstr("made/d.h5: both are called d; keep one of them in the folder"));
 }
 
+// In one of two files the smile stands still, and one has a unit that the other lacks.
+TEST_F(Measure, SaysWhatTheMeansOfAFolderLeaveOut) {
+    for (const char* folder : {"made", "true"}) std::filesystem::create_directory(folder_ / folder);
+    Motion still = smiling(0);
+    still.face->channels.push_back({.unit = 4});
+    still.face->intensities.assign(2 * still.frames, 1);
+    write("made/a.h5", smiling(0));
+    write("made/b.h5", still);
+    for (const char* name : {"true/a.h5", "true/b.h5"}) write(name, smiling(0));
+    const std::string made = (folder_ / "made").string();
+    const Json mean = measure({made, "--against", (folder_ / "true").string()})[2];
+    ASSERT_EQ(mean["near"].size(), 1u);
+    EXPECT_NEAR(mean["near"][0]["pcc"].get<double>(), 1, 1e-6);
+    EXPECT_EQ(
+        mean["notes"],
+        Json({made + ": 1 of 2 files have AU4, so it has no mean",
+              made + ": the mean of AU12 pcc is that of 1 of 2 files; it is not defined in the others"}));
+    EXPECT_THAT(refusal({made, "--audio", made}, 3),
+                HasSubstr("made: holds no sound; give a folder with WAV, FLAC, OGG or MP3 in it"));
+}
+
 // The places of the wrists differ by a constant, their changes not at all.
 TEST_F(Measure, TakesTheFrechetDistanceOfAllPosesOfAFolder) {
     for (const char* folder : {"made", "true"}) std::filesystem::create_directory(folder_ / folder);
