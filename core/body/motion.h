@@ -60,6 +60,7 @@ struct Motion {
     std::optional<FaceTrack> face{};
     std::vector<LabelTrack> labels{};  // no two of the same name
     std::vector<std::string> notes;    // what was detected: up axis, unit, facing, dialect
+    double first_time = 0;  // what the file calls the time of its first frame [s]; it is second 0 here
 };
 
 inline double duration(const Motion& motion) {

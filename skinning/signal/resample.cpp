@@ -116,8 +116,8 @@ Motion at_moments(const Motion& motion, double fps, const std::vector<Moment>& m
                   .frames = moments.size(),
                   .joints = {},
                   .keypoints = {},
-                  .notes = {}};
-    result.notes = motion.notes;
+                  .notes = motion.notes,
+                  .first_time = motion.first_time};
     if (motion.joints) result.joints = resample_joints(*motion.joints, moments);
     if (motion.keypoints) result.keypoints = resample_points(*motion.keypoints, moments);
     if (motion.picture) result.picture = resample_points(*motion.picture, moments);

@@ -290,7 +290,8 @@ Motion face_of_rows(const FaceRows& rows, std::optional<double> fps) {
     motion.face->channels = rows.channels;
     for (size_t t = 0; t < motion.frames; ++t)
         append_frame(*motion.face, rows, places.at(rows.times.front() + static_cast<double>(t) / rate));
-    if (rows.times.front() != 0) motion.notes.push_back(first_time_note(rows.times.front()));
+    motion.first_time = rows.times.front();
+    if (motion.first_time != 0) motion.notes.push_back(first_time_note(motion.first_time));
     motion.notes.push_back(
         format("rate: {:.6g} frames/s, {}", rate, fps ? "set by hand" : "by the times of the rows"));
     if (auto note = bridged_note(*motion.face, rows, rate)) motion.notes.push_back(std::move(*note));

@@ -137,7 +137,8 @@ void even_out_times(KeypointData& data, std::vector<double> times, const FramePl
     const double unit = seconds_of_times(times);
     if (unit != 1) data.notes.push_back(format("times: 1 = {:g} s, by their usual step", unit));
     const double first = times.front();
-    if (first != 0) data.notes.push_back(first_time_note(first * unit));
+    data.first_time = first * unit;
+    if (first != 0) data.notes.push_back(first_time_note(data.first_time));
     for (double& time : times) time = (time - first) * unit;
     const double mean = times.back() / static_cast<double>(times.size() - 1);
     bool is_even = true;
@@ -169,7 +170,11 @@ void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers
         at.push_back(numbers[t] - numbers[0]);
     }
     if (at.size() < 2) return;
-    if (numbers[0] > 1) data.notes.push_back(first_number_note(numbers[0]));
+    if (numbers[0] > 1) {
+        data.first_number = numbers[0];
+        data.notes.push_back(
+            format("time: the first frame is number {:.0f}, which is second 0 here", numbers[0]));
+    }
     if (std::ranges::min(steps_of(at)) > 2)
         throw Error(
             format("{}frame {}, where {} is expected; more than half of the frames are left out, number "

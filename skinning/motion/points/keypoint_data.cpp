@@ -151,7 +151,8 @@ Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::f
                   .frames = data.frames,
                   .joints = {},
                   .keypoints = {},
-                  .notes = {}};
+                  .notes = {},
+                  .first_time = data.first_number > 0 ? data.first_number / rate : data.first_time};
     KeypointTrack track = track_of(data, naming);
     if (!data.picture && !naming.zero_is_missing) miss_zeros(track, data.frames, data.notes);
     motion.notes = data.notes;

@@ -28,6 +28,8 @@ struct KeypointData {
     std::vector<double> places;  // (T, K, 3) in the file's axes and unit
     std::vector<double> confidence;  // (T, K); empty: the file has none
     std::optional<double> fps;       // as in the file
+    double first_time = 0;           // as in Motion
+    double first_number = 0;         // of the first frame, where the file numbers them from 2 on or later
     std::vector<std::string> notes;
 };
 
