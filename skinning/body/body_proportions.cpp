@@ -22,6 +22,7 @@ constexpr double kSameLength = 0.03;
 constexpr float kTurned = 10 * kPi / 180;
 constexpr size_t kMostLooks = 200;
 constexpr size_t kEnough = 4;
+constexpr double kLeastChange = 0.2;  // ours: of a squared length; jitter of a detector changes it by less
 
 struct Bone {
     Landmark from, to;
@@ -157,20 +158,33 @@ class OddPlaces {
     float size_ = 0;
 };
 
-std::vector<double> lengths_of(const KeypointTrack& track, const Bone& bone) {
+// Of one bone from frame to frame, where both of its ends are seen.
+std::vector<Vec3> ways_of(const KeypointTrack& track, const Bone& bone) {
     const auto column = [&](Landmark landmark) {
         return static_cast<size_t>(std::find(track.names.begin(), track.names.end(), name_of(landmark)) -
                                    track.names.begin());
     };
     const size_t points = track.names.size(), from = column(bone.from), to = column(bone.to);
-    std::vector<double> lengths;
-    if (from == points || to == points) return lengths;
+    std::vector<Vec3> ways;
+    if (from == points || to == points) return ways;
     for (size_t row = 0; row < track.points.size(); row += points) {
         if (track.confidence[row + from] < kSeen || track.confidence[row + to] < kSeen) continue;
-        lengths.push_back(
-            static_cast<double>(glm::distance(track.points[row + from], track.points[row + to])));
+        ways.push_back(track.points[row + to] - track.points[row + from]);
     }
-    return lengths;
+    return ways;
+}
+
+// Calls `look` with each bone of both sides and across the body.
+void for_all_bones(const auto& look) {
+    for (const Bone& bone : kBones) {
+        look(bone);
+        if (mirrored(bone.from) != bone.to)
+            look({mirrored(bone.from), mirrored(bone.to), bone.length, bone.in_limb});
+    }
+}
+
+double spread_of(const std::vector<double>& numbers) {
+    return quantile(numbers, 0.9) - quantile(numbers, 0.1);
 }
 
 }  // namespace
@@ -203,6 +217,24 @@ size_t count_rigid_pairs(const KeypointTrack& track) {
     return pairs;
 }
 
+std::optional<double> left_of_changes(const KeypointTrack& track) {
+    double flat = 0, deep = 0;
+    size_t bones = 0;
+    for_all_bones([&](const Bone& bone) {
+        std::vector<double> in_picture, in_space;
+        for (const Vec3& way : ways_of(track, bone)) {
+            in_picture.push_back(static_cast<double>(dot(Vec2(way), Vec2(way))));
+            in_space.push_back(static_cast<double>(dot(way, way)));
+        }
+        if (in_picture.empty() || spread_of(in_picture) <= kLeastChange * median(in_picture)) return;
+        ++bones;
+        flat += spread_of(in_picture);
+        deep += spread_of(in_space);
+    });
+    if (bones < 2) return std::nullopt;
+    return deep / flat;
+}
+
 std::optional<double> odd_places(const KeypointTrack& track) {
     return OddPlaces(track).run();
 }
@@ -212,19 +244,16 @@ std::optional<double> odd_bones(const KeypointTrack& track, Seen seen) {
     std::vector<bool> stretches;
     const bool captured = seen == Seen::in_space && count_rigid_pairs(track) >= kFewestBones;
     const auto measure = [&](const Bone& bone) {
-        const std::vector<double> lengths = lengths_of(track, bone);
+        std::vector<double> lengths;
+        for (const Vec3& way : ways_of(track, bone)) lengths.push_back(static_cast<double>(length(way)));
         if (lengths.empty()) return;
         const double usual = median(lengths);
         ratios.push_back(std::log(usual / bone.length));
         stretches.push_back(seen == Seen::in_space &&
-                            quantile(lengths, 0.9) - quantile(lengths, 0.1) >
+                            spread_of(lengths) >
                                 (captured && bone.in_limb ? kWidestOfCaptured : kWidestSpread) * usual);
     };
-    for (const Bone& bone : kBones) {
-        measure(bone);
-        if (mirrored(bone.from) != bone.to)
-            measure({mirrored(bone.from), mirrored(bone.to), bone.length, bone.in_limb});
-    }
+    for_all_bones(measure);
     if (ratios.size() < kEnough) return std::nullopt;
     const double usual = median(ratios);
     size_t odd = 0;

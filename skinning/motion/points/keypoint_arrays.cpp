@@ -259,6 +259,7 @@ void take_confidence(KeypointData& data, const std::vector<NumpyArray>& arrays) 
                            data.frames, data.points));
     }
     data.confidence = array->numbers;
+    data.unnamed_third = false;
 }
 
 void check_name_count(const KeypointData& data) {

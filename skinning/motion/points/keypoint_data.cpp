@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/quantile.h"
 #include "core/text.h"
+#include "skinning/body/body_proportions.h"
 #include "skinning/motion/points/point_naming.h"
 
 namespace chironomia {
@@ -17,6 +19,8 @@ constexpr double kSameRate = 0.01;  // ours; 29.97 and 30 are the same
 // Ours, of how far a body spreads: 9 cm of a grown-up, 2.6 m/s at 30 frames/s.
 constexpr double kSmallStep = 0.05;
 constexpr double kFlattest = 0.05;  // ours: of a body's depth, against how far it spreads; a chest has 0.15
+constexpr size_t kFewestToJudge = 10;  // ours [frames]: fewer may be as flat by chance
+constexpr double kMostOutside = 0.05;  // ours: of the points of a picture
 
 // How far numbers spread.
 struct NumberRange {
@@ -30,39 +34,141 @@ struct NumberRange {
     double spread() const { return std::max(0.0, high - low); }
 };
 
-// Detectors write x and y in pixels and how sure they are, which looks like a place in space.
-void take_third_for_confidence(KeypointData& data) {
-    if (!data.unnamed_third || data.picture || !data.confidence.empty()) return;
+// The third numbers of points, beside how far these spread.
+struct Thirds {
     NumberRange x, y, third;
-    for (size_t i = 0; i + 2 < data.places.size(); i += 3) {
-        const double* point = &data.places[i];
-        if (std::isnan(point[0]) || std::isnan(point[1]) || std::isnan(point[2])) continue;
-        third.add(point[2]);
-        // 0 0 is a point that was not found.
-        if (point[0] == 0 && point[1] == 0) continue;
-        x.add(point[0]);
-        y.add(point[1]);
+    std::vector<double> above_zero{};
+    size_t points = 0, outside = 0;  // outside: above or left of a picture
+
+    double spread() const { return std::max(x.spread(), y.spread()); }
+    // A body in space has places below 0, or is taller than 1 m.
+    bool in_shares() const { return x.within(0, 1) && y.within(0, 1); }
+    // Detectors guess few points outside of it; a space has its origin anywhere.
+    bool in_picture() const {
+        return static_cast<double>(outside) <= kMostOutside * static_cast<double>(points);
     }
-    const double spread = std::max(x.spread(), y.spread());
-    if (third.low == 0 && third.high == 0 && spread > 0) {
+};
+
+// Those that were seen; 0 0 is a point that was not found.
+Thirds look_at_thirds(const KeypointData& data) {
+    Thirds thirds;
+    for (size_t i = 0; i < data.frames * data.points; ++i) {
+        const double* point = &data.places[3 * i];
+        if (std::isnan(point[0]) || std::isnan(point[1]) || std::isnan(point[2])) continue;
+        if (!data.confidence.empty() && data.confidence[i] == 0) continue;
+        thirds.third.add(point[2]);
+        if (point[2] > 0) thirds.above_zero.push_back(point[2]);
+        if (point[0] == 0 && point[1] == 0) continue;
+        thirds.x.add(point[0]);
+        thirds.y.add(point[1]);
+        ++thirds.points;
+        thirds.outside += point[0] < 0 || point[1] < 0;
+    }
+    return thirds;
+}
+
+// How far the points of a frame spread in x or y, by the median.
+double spread_of_frames(const KeypointData& data) {
+    std::vector<double> spreads;
+    for (size_t t = 0; t < data.frames; ++t) {
+        NumberRange x, y;
+        for (size_t i = t * data.points; i < (t + 1) * data.points; ++i) {
+            const double* point = &data.places[3 * i];
+            if (std::isnan(point[0]) || std::isnan(point[1]) || (point[0] == 0 && point[1] == 0)) continue;
+            x.add(point[0]);
+            y.add(point[1]);
+        }
+        spreads.push_back(std::max(x.spread(), y.spread()));
+    }
+    return median(spreads);
+}
+
+// Whether the third numbers of a body in a picture are no depth, by left_of_changes; nothing where it hardly moves.
+// Throws Error where bones contradict it.
+std::optional<bool> are_no_depth(const KeypointData& data, const std::filesystem::path& name_map) {
+    KeypointData picture = data;
+    picture.picture = true;
+    for (size_t i = 2; i < picture.places.size(); i += 3) picture.places[i] = 0;
+    PointNaming naming;
+    try {
+        naming = find_naming(picture, name_map);
+    } catch (const Error&) {
+        return false;  // no body in a picture
+    }
+    naming.zero_is_missing = true;
+    const KeypointTrack track = track_of(data, naming);
+    const auto left = left_of_changes(track);
+    if (!left || *left < kLeftOfDepth) return left ? std::optional(false) : std::nullopt;
+    const auto in_space = odd_bones(track),
+               in_picture = odd_bones(track_of(picture, naming), Seen::in_picture);
+    if (in_space >= in_picture) return true;
+    throw Error(format(
+        "{}: the third numbers of points may be a depth or scores of a detector: bones have more of a body's "
+        "lengths by them, but do not keep their lengths from frame to frame; name them z in a table or in "
+        "JSON, or save x and y as (T, K, 2) beside an array \"confidence\"",
+        data.where));
+}
+
+// Why the third numbers are no depth. Empty: they may be one.
+std::string why_no_depth(KeypointData& data, const Thirds& thirds, const std::filesystem::path& name_map) {
+    const NumberRange& third = thirds.third;
+    const std::string flat = format("while the points spread over {:.3g}", thirds.spread());
+    if (third.within(0, kMostConfidence)) return flat;
+    const bool is_long = data.frames >= kFewestToJudge;
+    if (is_long && third.spread() <= kFlattest * spread_of_frames(data)) return flat;
+    if (third.low < 0 || !thirds.in_picture()) return "";
+    const auto no_depth = is_long ? are_no_depth(data, name_map) : std::nullopt;
+    if (no_depth == true) return "and are no depth, by which bones would keep their lengths";
+    if (!no_depth) {
+        data.notes.push_back(
+            "third numbers: taken for depth, which the motion is too short or too still to show; scores of a "
+            "detector belong into an array \"confidence\" beside (T, K, 2), as shares of 1");
+    }
+    return "";
+}
+
+// Detectors write x and y in pixels and how sure they are, as a share or a score, which looks like a place in space.
+void take_third_for_confidence(KeypointData& data, const std::filesystem::path& name_map) {
+    if (!data.unnamed_third || data.picture) return;
+    const Thirds thirds = look_at_thirds(data);
+    const auto [low, high] = thirds.third;
+    const double spread = thirds.spread();
+    if (low == 0 && high == 0 && spread > 0) {
         data.picture = true;
         data.notes.emplace_back("third numbers: all 0, so the points are those of a picture");
         return;
     }
-    const bool in_range = third.low >= 0 && third.high > 0 && third.high <= kMostConfidence;
-    // A body in space has places below 0, or is taller than 1 m.
-    const bool in_shares = x.within(0, 1) && y.within(0, 1);
-    if (!in_range || (kMostConfidence > kFlattest * spread && !in_shares)) return;
+    if (thirds.above_zero.empty() || !(spread > kMostConfidence / kFlattest || thirds.in_shares())) return;
+    const std::string why = why_no_depth(data, thirds, name_map);
+    if (why.empty()) return;
+    const double usual = high > kMostConfidence ? std::max(1.0, median(thirds.above_zero)) : 1;
+    data.notes.push_back(
+        format("third numbers: {} of points in a picture, as they lie between {:.2g} and {:.2g} {}{}",
+               low < 0 ? "no depth" : "confidences", low, high, why,
+               low < 0     ? "; they are left out"
+               : usual > 1 ? format("; {:.3g}, the usual one, counts as 1", usual)
+                           : ""));
     data.picture = true;
-    for (size_t i = 0; i + 2 < data.places.size(); i += 3) {
-        const bool is_lost = std::isnan(data.places[i]) || std::isnan(data.places[i + 1]);
-        data.confidence.push_back(is_lost ? 0 : data.places[i + 2]);
-        data.places[i + 2] = 0;
+    data.confidence.resize(data.frames * data.points, 1);
+    for (size_t i = 0; i < data.confidence.size(); ++i) {
+        double* point = &data.places[3 * i];
+        const bool is_lost = std::isnan(point[0]) || std::isnan(point[1]) || data.confidence[i] == 0;
+        if (is_lost || low >= 0) data.confidence[i] = is_lost ? 0 : std::min(point[2] / usual, 1.0);
+        point[2] = 0;
     }
-    data.notes.push_back(format(
-        "third numbers: confidences of points in a picture, as they lie between {:.2g} and {:.2g} while "
-        "the points spread over {:.3g}",
-        third.low, third.high, spread));
+}
+
+// Scores that the file names may count to 10 or 100 as well.
+void bring_scores_to_shares(KeypointData& data) {
+    std::vector<double> above_zero;
+    for (const double confidence : data.confidence)
+        if (confidence > 0 && std::isfinite(confidence)) above_zero.push_back(confidence);
+    if (above_zero.empty()) return;
+    const double usual = median(above_zero);
+    if (usual <= kMostConfidence) return;
+    for (double& confidence : data.confidence)
+        if (confidence > 0) confidence = std::min(confidence / usual, 1.0);
+    data.notes.push_back(format("confidences: scores above 1; {:.3g}, the usual one, counts as 1", usual));
 }
 
 // A point that lies exactly at the origin in some frames was not found there, unless it comes and goes by small steps,
@@ -138,7 +244,8 @@ double choose_rate(const KeypointData& data, std::optional<double> fps) {
 }  // namespace
 
 Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::filesystem::path& name_map) {
-    take_third_for_confidence(data);
+    take_third_for_confidence(data, name_map);
+    bring_scores_to_shares(data);
     if (data.frames == 0 || data.points == 0) {
         throw Error(format("{}: {} frames of {} points; there is nothing to show", data.where, data.frames,
                            data.points));

@@ -92,8 +92,10 @@ class TrackMaker {
         const double confidence = data_.confidence[t * data_.points + k];
         if (std::isnan(confidence)) return 0;
         if (confidence < 0 || confidence > kMostConfidence) {
-            throw Error(format("{}: {}: the confidence {} does not lie between 0 and 1", data_.where,
-                               place_name(t, k), confidence));
+            throw Error(format(
+                "{}: {}: the confidence {} does not lie between 0 and 1, as most do; set it to 0 where "
+                "the point is missing, or divide all by their scale",
+                data_.where, place_name(t, k), confidence));
         }
         return std::min(confidence, 1.0);
     }

@@ -578,6 +578,97 @@ TEST(KeypointFile, TakesSharesWithConfidencesForAPicture) {
     EXPECT_TRUE(read_motion(folder / "a.npy", {.fps = 25, .picture = {.size = Vec2(1280, 720)}}).picture);
 }
 
+// x, y [px or cm] and a third number of the recording in the order of COCO.
+NumpyArray with_thirds(const auto& third) {
+    const Motion motion = read_motion(test_file("tests/fixtures/gestures/mediapipe_world33_25fps.json"));
+    const auto layout = std::find_if(keypoint_layouts().begin(), keypoint_layouts().end(),
+                                     [](const KeypointLayout& each) { return each.name == "COCO 17"; });
+    NumpyArray points{.name = "", .type = "<f8", .shape = {motion.frames, 17, 3}, .numbers = {}, .texts = {}};
+    for (size_t t = 0; t < motion.frames; ++t) {
+        const LandmarkFrame frame = landmarks_of(*motion.keypoints, {t})[0];
+        for (size_t k = 0; k < 17; ++k) {
+            const Vec3 place = frame[size_t(*layout->points[k].ours)].value();
+            points.numbers.insert(points.numbers.end(),
+                                  {640 + 300.0 * place.x, 600 - 300.0 * place.y, third(t, k, place)});
+        }
+    }
+    return points;
+}
+
+double score(size_t t, size_t k, const Vec3& = {}) {
+    return 60 + 3 * double(k % 9) + 8 * std::sin(0.3 * double(t) + double(k * k));
+}
+
+TEST(KeypointFile, TakesScoresAboveOneForConfidencesOfAPicture) {
+    const testing::TemporaryFolder folder;
+    const auto read = [&](const auto& third) {
+        const NumpyArray points = with_thirds(third);
+        testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+        return read_motion(folder / "a.npy", {.fps = 25});
+    };
+    const Motion percent = read(score);
+    ASSERT_TRUE(percent.picture);
+    EXPECT_THAT(percent.notes, Contains(AllOf(HasSubstr("and are no depth, by which bones would keep"),
+                                              HasSubstr("the usual one, counts as 1"))));
+    EXPECT_GT(percent.picture->confidence[0], 0.6f);
+    EXPECT_LE(percent.picture->confidence[0], 1);
+
+    const Motion flat = read([](size_t t, size_t k, const Vec3&) { return 0.05 * score(t, k); });
+    ASSERT_TRUE(flat.picture);
+    EXPECT_THAT(flat.notes,
+                Contains(AllOf(HasSubstr("confidences"), HasSubstr("while the points spread over"))));
+
+    const Motion logits = read([](size_t t, size_t k, const Vec3&) { return 0.1 * score(t, k) - 7; });
+    ASSERT_TRUE(logits.picture);
+    EXPECT_THAT(logits.notes, Contains(AllOf(HasSubstr("no depth"), HasSubstr("they are left out"))));
+    EXPECT_EQ(logits.picture->confidence[0], 1);
+}
+
+// As far above 0 as scores are.
+TEST(KeypointFile, TakesDepthForDepth) {
+    const testing::TemporaryFolder folder;
+    const auto depth = [](size_t, size_t, const Vec3& place) { return 300 + 300.0 * place.z; };
+    NumpyArray points = with_thirds(depth);
+    testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+    EXPECT_TRUE(read_motion(folder / "a.npy", {.fps = 25}).keypoints);
+
+    points.shape[0] = 5;
+    points.numbers.resize(5 * 17 * 3);
+    testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+    EXPECT_THAT(read_motion(folder / "a.npy", {.fps = 25}).notes,
+                Contains(HasSubstr("taken for depth, which the motion is too short or too still to show")));
+}
+
+// A depth that is off by centimetres, of a body that is seen from its side: its bones spread more with it.
+TEST(KeypointFile, RefusesThirdsThatMayBeDepthOrScores) {
+    const testing::TemporaryFolder folder;
+    NumpyArray points = with_thirds([](size_t t, size_t k, const Vec3& place) {
+        return 300 + 300.0 * place.x + 10 * std::sin(2.0 * double(t) + double(k * k));
+    });
+    const NumpyArray depths =
+        with_thirds([](size_t, size_t, const Vec3& place) { return 640 + 300.0 * place.z; });
+    for (size_t i = 0; i < points.numbers.size(); i += 3) points.numbers[i] = depths.numbers[i + 2];
+    testing::write_npy(folder / "a.npy", points.shape, points.numbers);
+    EXPECT_THAT(refusal_of([&] { read_motion(folder / "a.npy", {.fps = 25}); }),
+                AllOf(HasSubstr("a.npy: the third numbers of points may be a depth or scores of a detector"),
+                      HasSubstr("beside an array \"confidence\"")));
+}
+
+TEST(KeypointFile, BringsScoresThatItNamesToShares) {
+    const testing::TemporaryFolder folder;
+    const NumpyArray points = with_thirds(score);
+    std::vector<double> places, scores;
+    for (size_t i = 0; i < points.numbers.size(); i += 3) {
+        places.insert(places.end(), {points.numbers[i], points.numbers[i + 1]});
+        scores.push_back(points.numbers[i + 2]);
+    }
+    testing::write_npz(folder / "a.npz", {{"keypoints", {points.shape[0], 17, 2}, places},
+                                          {"scores", {points.shape[0], 17}, scores}});
+    const Motion motion = read_motion(folder / "a.npz", {.fps = 25});
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("confidences: scores above 1; ")));
+    EXPECT_GT(motion.picture->confidence[0], 0.6f);
+}
+
 // Rows of numbered landmarks, columns "landmark_0_x" and "body_nose_x" of FreeMoCap, and MessageToDict of protobuf.
 TEST(KeypointFile, KnowsLandmarksOfMediaPipeByTheirNumbers) {
     const testing::TemporaryFolder folder;
@@ -1249,8 +1340,11 @@ TEST_F(KeypointText, RefusesPlacesAndConfidencesThatMeanNothing) {
         "nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z,pelvis_c\n";
     EXPECT_THAT(refusal("a.csv", header + "0,1,0,0,nan,0,0,0,0,1\n", {.fps = 30}),
                 HasSubstr("frame 0, point \"neck\": the place (0, nan, 0) is no place"));
-    EXPECT_THAT(refusal("a.csv", header + "0,1,0,0,1,0,0,0,0,5\n", {.fps = 30}),
-                HasSubstr("frame 0, point \"pelvis\": the confidence 5 does not lie between 0 and 1"));
+    EXPECT_THAT(
+        refusal("a.csv", header + "0,1,0,0,1,0,0,0,0,5\n", {.fps = 30}),
+        HasSubstr(
+            "frame 0, point \"pelvis\": the confidence 5 does not lie between 0 and 1, as most do; set it to "
+            "0 where the point is missing, or divide all by their scale"));
     EXPECT_THAT(
         refusal("a.csv", "nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n,,,,,,,,\n",
                 {.fps = 30}),
