@@ -45,6 +45,7 @@ GltfScene read_gltf_parts(const GltfFile& file, SceneNeed need) {
     if (meshes.surfaces.empty() && need == SceneNeed::triangles)
         refuse(file, "has no triangles in its scene; export the avatar's mesh too");
     turn_mirrored_triangles(meshes.surfaces, nodes.skeleton, skins);
+    materials.notes.insert(materials.notes.end(), meshes.notes.begin(), meshes.notes.end());
     const HumanoidMap named = read_vrm_humanoid(file, nodes);
     std::vector<Expression> expressions = read_vrm_expressions(file, meshes.morph_sets);
     Avatar avatar{.source = file.name,

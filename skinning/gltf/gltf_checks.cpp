@@ -14,8 +14,7 @@ namespace {
 
 constexpr float kBoundsTolerance = 0.05f;  // of the longest side
 constexpr float kWeightTolerance = 0.02f;  // of one weight beyond [0, 1]
-constexpr float kLeastWeights = 0.5f, kMostWeights = 1.1f;
-constexpr float kFlat = 1e-6f;  // volume of a matrix's axes, of the box of their lengths
+constexpr float kFlat = 1e-6f;             // volume of a matrix's axes, of the box of their lengths
 
 // What stands in a list of the JSON, with its name for messages: material "Skin", node 4.
 template <typename Visit>
@@ -269,17 +268,11 @@ void check_inverse_bind(const GltfFile& file, const Mat4& matrix, const std::str
 }
 
 void check_weights(const GltfFile& file, std::span<const float> weights, const std::string& what) {
-    float sum = 0;
     for (const float weight : weights) {
         if (weight < -kWeightTolerance || weight > 1 + kWeightTolerance) {
             refuse(file, format("{} has the weight {:.4g}, 0 to 1 is needed; repair the skin weights", what,
                                 weight));
         }
-        sum += std::max(weight, 0.0f);
-    }
-    if (sum > 0 && (sum < kLeastWeights || sum > kMostWeights)) {
-        refuse(file, format("{} has weights that sum to {:.4g}, 1 is needed; normalise the skin weights",
-                            what, sum));
     }
 }
 

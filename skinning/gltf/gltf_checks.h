@@ -31,8 +31,7 @@ void check_bounds(const GltfFile& file, const tinygltf::Accessor& accessor, std:
 // Throws Error if no inverse bind matrix can be so: it is flat, or its last row is not 0 0 0 1.
 void check_inverse_bind(const GltfFile& file, const Mat4& matrix, const std::string& what);
 
-// Throws Error for weights of a vertex below 0 or above 1, or whose sum is far from 1. Programs that keep the four
-// largest of many leave less than 1, and rounding to bytes a little more: the sum may be 0.5 to 1.1 (ours).
+// Throws Error for a weight of a vertex below 0 or above 1.
 void check_weights(const GltfFile& file, std::span<const float> weights, const std::string& what);
 
 // Throws Error if the material has a texture that reads a set of coordinates that the surface lacks.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -14,6 +15,8 @@ namespace {
 
 constexpr size_t kMostVertices = 8'000'000;  // of all surfaces together
 constexpr size_t kMostMorphs = 10'000;       // of all nodes together
+// Ours: programs that keep the four largest of many weights leave less than 1, and rounding to bytes a little more.
+constexpr float kLeastWeights = 0.5f, kMostWeights = 1.1f;
 
 std::vector<Vec3> to_vec3(const std::vector<float>& numbers) {
     std::vector<Vec3> vectors(numbers.size() / 3);
@@ -303,6 +306,8 @@ void MeshReader::add_influences(Surface& surface, const tinygltf::Primitive& pri
                                  name, set));
     }
     surface.first_influence.push_back(0);
+    size_t uneven = 0;
+    float least = std::numeric_limits<float>::infinity(), most = 0;
     for (size_t v = 0; v < vertices; ++v) {
         const size_t first = surface.influences.size();
         std::vector<float> weights;
@@ -330,7 +335,15 @@ void MeshReader::add_influences(Surface& surface, const tinygltf::Primitive& pri
         }
         for (size_t i = first; i < surface.influences.size(); ++i) surface.influences[i].weight /= sum;
         surface.first_influence.push_back(static_cast<std::uint32_t>(surface.influences.size()));
+        if (sum >= kLeastWeights && sum <= kMostWeights) continue;
+        ++uneven;
+        least = std::min(least, sum);
+        most = std::max(most, sum);
     }
+    if (uneven == 0) return;
+    const std::string low = format("{:.4g}", least), high = format("{:.4g}", most);
+    set_.notes.push_back(format("{}: weights of {} of {} vertices sum to {}, not 1; they are normalised",
+                                label, uneven, vertices, low == high ? low : format("{} to {}", low, high)));
 }
 
 Morph MeshReader::morph_of(const std::map<std::string, int>& target, size_t vertices,

@@ -28,6 +28,7 @@ struct MeshSet {
     std::vector<float> rest_morph_weights;
     std::vector<std::string> morph_names;
     std::vector<MorphSet> morph_sets;
+    std::vector<std::string> notes;  // a mesh whose weights are far from normalised
 };
 
 // Strips and fans become triangles, weights are normalised, vertices that no triangle uses are left out, and

@@ -139,6 +139,7 @@ Performance perform(const Performer& performer, const ClipJob& job) {
     performance.face = std::move(fit.face);
     add_notes(performance.warnings, warn_of_facing(performer, performance));
     add_notes(performance.warnings, warnings_of(performance.fit.report));
+    add_notes(performance.notes, performance.avatar.humanoid_notes);
     for (const auto* motion : {&motions.body, &motions.face}) {
         if (*motion) add_notes(performance.notes, (*motion)->notes);
     }

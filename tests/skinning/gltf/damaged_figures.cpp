@@ -72,14 +72,6 @@ const Kind kNumbers[] = {
      [](auto& f, auto& r) {
          put_anywhere(f, accessor_named(f, "WEIGHTS_0"), r, {2, 0, 0, 0});
      }},
-    {"weights too large together", "has weights that sum to 1.8, 1 is needed; normalise the skin weights",
-     [](auto& f, auto& r) {
-         put_anywhere(f, accessor_named(f, "WEIGHTS_0"), r, {0.9f, 0.9f, 0, 0});
-     }},
-    {"weights too small together", "has weights that sum to 0.25, 1 is needed",
-     [](auto& f, auto& r) {
-         put_anywhere(f, accessor_named(f, "WEIGHTS_0"), r, {0.25f, 0, 0, 0});
-     }},
     {"no weight", "(its weights are 0); repair the skin weights",
      [](auto& f, auto& r) {
          put_anywhere(f, accessor_named(f, "WEIGHTS_0"), r, {0, 0, 0, 0});

@@ -164,10 +164,13 @@ class FigureWriter {
         for (size_t v = 0; v < vertices(); ++v) {
             const auto first = static_cast<float>(body_.joints[2 * v]);
             const auto second = static_cast<float>(std::max(body_.joints[2 * v + 1], 0));
-            const float share = body_.weights[2 * v + 1];
+            const float most = form_.weight_sum * body_.weights[2 * v];
+            const float share = form_.weight_sum * body_.weights[2 * v + 1];
+            const float again = form_.weights_twice ? 1 : 0;
             // The second influence may stand in a set of its own.
-            joints.insert(joints.end(), {first, form_.second_set ? 0 : second, 0, 0});
-            weights.insert(weights.end(), {body_.weights[2 * v], form_.second_set ? 0 : share, 0, 0});
+            joints.insert(joints.end(),
+                          {first, form_.second_set ? 0 : second, again * first, again * second});
+            weights.insert(weights.end(), {most, form_.second_set ? 0 : share, again * most, again * share});
             more_joints.insert(more_joints.end(), {second, 0, 0, 0});
             more_weights.insert(more_weights.end(), {share, 0, 0, 0});
         }
@@ -373,6 +376,8 @@ const std::vector<std::pair<std::string, void (*)(FigureForm&)>> kChoices = {
     {"sparse", [](FigureForm& form) { form.sparse = true; }},
     {"quantized", [](FigureForm& form) { form.quantized = true; }},
     {"second_influences", [](FigureForm& form) { form.second_set = true; }},
+    {"low_weights", [](FigureForm& form) { form.weight_sum = 0.4f; }},
+    {"double_weights", [](FigureForm& form) { form.weights_twice = true; }},
     {"matrices", [](FigureForm& form) { form.matrices = true; }},
     {"no_material", [](FigureForm& form) { form.textured = false; }},
     {"no_normals", [](FigureForm& form) { form.has_normals = false; }},

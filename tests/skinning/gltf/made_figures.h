@@ -17,13 +17,15 @@ struct FigureForm {
     int uv_type = 5126;      // the same
     int uv_set = 0;          // which the texture reads
     int primitives = 1;
-    bool interleaved = false;  // all of a vertex together, with room between vertices
-    bool offsets = false;      // each accessor begins behind something else in its view
-    bool sparse = false;       // some positions stand in a sparse part
-    bool quantized = false;    // positions are normalized shorts
-    bool second_set = false;   // a second set of influences
-    bool matrices = false;     // nodes have a matrix in place of translations
-    bool textured = true;      // false: without any material
+    bool interleaved = false;    // all of a vertex together, with room between vertices
+    bool offsets = false;        // each accessor begins behind something else in its view
+    bool sparse = false;         // some positions stand in a sparse part
+    bool quantized = false;      // positions are normalized shorts
+    bool second_set = false;     // a second set of influences
+    float weight_sum = 1;        // of a vertex
+    bool weights_twice = false;  // each influence stands there twice, so that weights sum to 2
+    bool matrices = false;       // nodes have a matrix in place of translations
+    bool textured = true;        // false: without any material
     bool has_normals = true;
     bool as_text = false;  // a .gltf with its buffer inside
 };

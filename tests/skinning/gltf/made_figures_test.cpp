@@ -12,10 +12,12 @@
 namespace chironomia {
 namespace {
 
+using ::testing::Contains;
 using testing::DamagedFigure;
 using testing::FigureForm;
 using ::testing::HasSubstr;
 using testing::made_figure;
+using ::testing::Not;
 using testing::refusal_of;
 using testing::TemporaryFolder;
 
@@ -69,6 +71,15 @@ TEST_F(MadeFigures, AreTheSameHoweverTheyAreWritten) {
         for (size_t c = 0; c < corners.size(); ++c)
             ASSERT_LT(distance(corners[c], plain[c]), kTolerance) << c;
     }
+}
+
+TEST_F(MadeFigures, SayThatWeightsAreNormalised) {
+    EXPECT_THAT(read(testing::figure_of_kind("double_weights")).humanoid_notes,
+                Contains(HasSubstr("vertices sum to 2, not 1; they are normalised")));
+    EXPECT_THAT(read(testing::figure_of_kind("low_weights")).humanoid_notes,
+                Contains(HasSubstr("vertices sum to 0.4, not 1; they are normalised")));
+    EXPECT_THAT(read(testing::figure_of_kind("byte_weights")).humanoid_notes,
+                Not(Contains(HasSubstr("normalised"))));
 }
 
 TEST_F(MadeFigures, AreRefusedWhenTheyAreDamaged) {
