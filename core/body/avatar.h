@@ -120,6 +120,7 @@ struct Avatar {
     HumanoidMap humanoid;
     std::vector<HumanoidMap> more_humanoids{};  // of the further figures, where several were joined
     std::vector<std::string> humanoid_notes;    // how the map was found and what is missing
+    std::vector<std::string> warnings{};        // what of its file is left out
     std::vector<Skin> skins;
     std::vector<Surface> surfaces;
     std::vector<Material> materials;

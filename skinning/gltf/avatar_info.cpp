@@ -81,6 +81,7 @@ void add_humanoid(Json& description, const Avatar& avatar) {
     description["humanoid"] = std::move(parts);
     description["missing"] = std::move(missing);
     description["notes"] = avatar.humanoid_notes;
+    for (const std::string& warning : avatar.warnings) description["notes"].push_back(warning);
 }
 
 std::vector<std::string> strings(const Json& array) {

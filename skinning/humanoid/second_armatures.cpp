@@ -67,21 +67,28 @@ void join_second_armatures(Avatar& avatar) {
     const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
     const std::vector<bool> inside = joints_of_figure(avatar);
     const std::vector<int> goes_with = counterparts(avatar, world);
-    std::vector<std::string> noted;
-    for (const Surface& surface : avatar.surfaces) {
-        if (surface.skin < 0 || std::ranges::find(noted, surface.name) != noted.end()) continue;
-        const bool moves =
-            any_mover(avatar, surface, [&](size_t j) { return inside[j] || goes_with[j] >= 0; });
-        const bool rehung = any_mover(avatar, surface, [&](size_t j) { return goes_with[j] >= 0; });
-        if (moves && !rehung) continue;
-        noted.push_back(surface.name);
-        avatar.humanoid_notes.push_back(
-            rehung
-                ? format("mesh \"{}\" has an armature of its own; it goes with the joints of the same names "
-                         "in the body's",
-                         surface.name)
-                : format("mesh \"{}\" hangs on no joint of the figure; it stays as it stands in the file",
-                         surface.name));
+    std::vector<std::string> rehung, left_out;
+    const auto add_once = [](std::vector<std::string>& names, const std::string& name) {
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    };
+    std::erase_if(avatar.surfaces, [&](const Surface& surface) {
+        if (surface.skin < 0) return false;
+        const bool goes_along = any_mover(avatar, surface, [&](size_t j) { return goes_with[j] >= 0; });
+        const bool moves = goes_along || any_mover(avatar, surface, [&](size_t j) { return inside[j]; });
+        if (goes_along) add_once(rehung, surface.name);
+        if (!moves) add_once(left_out, surface.name);
+        return !moves;
+    });
+    for (const std::string& name : rehung) {
+        avatar.humanoid_notes.push_back(format(
+            "mesh \"{}\" has an armature of its own; it goes with the joints of the same names in the body's",
+            name));
+    }
+    if (!left_out.empty()) {
+        avatar.warnings.push_back(format(
+            "{} of its meshes ({}) hang on no joint of the figure, as another person or a prop with an "
+            "armature; they are left out: for a prop that should stand there, take its armature away",
+            left_out.size(), join(left_out)));
     }
     for (Skin& skin : avatar.skins) {
         for (size_t i = 0; i < skin.joints.size(); ++i) {

@@ -10,8 +10,8 @@ namespace chironomia {
 
 // Modular characters bring an armature with each garment, whose joints have the names and the places of the body's.
 // Hangs what such joints move from the body's; joints that only the garment has go with the nearest one above that has
-// a counterpart. At rest nothing moves. Adds a note for each mesh that it rehangs, and for each one that hangs on
-// joints outside the figure otherwise, such as a second person: it stays as it stands in the file.
+// a counterpart. At rest nothing moves. Adds a note for each mesh that it rehangs. Leaves out meshes that hang on other
+// joints outside the figure, such as a second person, who would stand there without a motion, and warns of them.
 // The avatar must be a humanoid.
 void join_second_armatures(Avatar& avatar);
 

@@ -134,6 +134,8 @@ Performance perform(const Performer& performer, const ClipJob& job) {
     performance.motion_file = performer.motion.empty() ? performance.face_file : performer.motion;
     performance.companions = motions.companions();
     performance.warnings = motions.warnings;
+    for (const std::string& warning : performance.avatar.warnings)
+        performance.warnings.push_back(format("{}: {}", performance.avatar.source, warning));
     add_notes(performance.warnings, warnings_of(fit, performance));
     performance.fit = std::move(fit.fit);
     performance.face = std::move(fit.face);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/files/files.h"
+#include "core/text.h"
 #include "raster/images/image_file.h"
 #include "tests/skinning/gltf/made_figures.h"
 #include "tests/study/process.h"
@@ -76,6 +77,39 @@ TEST_F(MadeFiguresCli, AreDrawnTheSameHoweverTheyAreWritten) {
         SCOPED_TRACE(kind);
         EXPECT_LT(difference(picture_of(testing::figure_of_kind(kind)), plain), 0.005);
     }
+}
+
+// A copy of the figure, 0.8 m to its left, on an armature of its own.
+void add_another_person(testing::GltfBuilder& file) {
+    Json& nodes = file.json["nodes"];
+    const size_t joints = nodes.size() - 1;
+    for (size_t j = 0; j < joints; ++j) {
+        Json node = nodes[j];
+        node["name"] = format("other {}", j);
+        if (j == 0) node["translation"][0] = node["translation"][0].get<float>() + 0.8f;
+        for (Json& child : node["children"]) child = child.get<size_t>() + joints + 1;
+        if (node["children"].is_null()) node.erase("children");
+        nodes.push_back(std::move(node));
+    }
+    nodes.push_back({{"name", "Bob"}, {"mesh", 1}, {"skin", 1}});
+    file.json["meshes"].push_back(file.json["meshes"][0]);
+    file.json["meshes"][1]["name"] = "Bob";
+    Json skin = file.json["skins"][0];
+    for (Json& joint : skin["joints"]) joint = joint.get<size_t>() + joints + 1;
+    file.json["skins"].push_back(std::move(skin));
+    file.json["scenes"][0]["nodes"].push_back(joints + 1);
+    file.json["scenes"][0]["nodes"].push_back(nodes.size() - 1);
+}
+
+TEST_F(MadeFiguresCli, AreShownAloneWhereSomebodyElseStandsInTheFile) {
+    const Frame alone = picture_of({});
+    testing::GltfBuilder file = made_figure({});
+    add_another_person(file);
+    file.write_glb(folder_ / "x.glb");
+    const Outcome outcome = render(folder_ / "x.glb");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("x.glb: 1 of its meshes (Bob) hang on no joint of the figure"));
+    EXPECT_EQ(read_image(frames() / "0.png").rgba, alone.rgba);
 }
 
 TEST_F(MadeFiguresCli, AreRefusedWhenTheyAreDamaged) {

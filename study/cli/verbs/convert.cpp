@@ -210,7 +210,8 @@ void write_performance(const Performance& performed, const ConvertCommand& comma
         write_animated_glb(command.out, performed.avatar_file, performed.avatar, poses, fit.fps);
     else
         write_motion(motion_of_avatar(performed.avatar, poses, fit.fps), command, form);
-    std::vector<std::string> warnings = warnings_of(fit.report);
+    std::vector<std::string> warnings = performed.avatar.warnings;
+    for (std::string& warning : warnings_of(fit.report)) warnings.push_back(std::move(warning));
     if (performed.fit.face) {
         for (std::string& warning : warnings_of(*performed.fit.face)) warnings.push_back(std::move(warning));
     }
