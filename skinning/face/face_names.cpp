@@ -146,12 +146,64 @@ constexpr std::array kOther = {
 // VRM: a whole expression stands for its most typical unit. AU1 also uses half of "sad", for its brows, and AU5 half of
 // "surprised", for its eyes: half, because the mouth should stay nearly still. "viseme_aa" and its like are Oculus's.
 constexpr std::array kExpressions = {
-    KnownShape{"sad", {1, .5f}},       KnownShape{"surprised", {2, 1}},  KnownShape{"angry", {4, 1}},
-    KnownShape{"surprised", {5, .5f}}, KnownShape{"happy", {12, 1}},     KnownShape{"sad", {15, 1}},
-    KnownShape{"ou", {18, 1}},         KnownShape{"ih", {20, .7f}},      KnownShape{"oh", {22, 1}},
-    KnownShape{"aa", {25, .3f}},       KnownShape{"aa", {26, 1}},        KnownShape{"blink", {45, 1}},
-    KnownShape{"visemeu", {18, 1}},    KnownShape{"visemei", {20, .7f}}, KnownShape{"visemeo", {22, 1}},
-    KnownShape{"visemeaa", {25, .3f}}, KnownShape{"visemeaa", {26, 1}},
+    KnownShape{"sad", {1, .5f}},
+    KnownShape{"surprised", {2, 1}},
+    KnownShape{"angry", {4, 1}},
+    KnownShape{"surprised", {5, .5f}},
+    KnownShape{"happy", {12, 1}},
+    KnownShape{"sad", {15, 1}},
+    KnownShape{"ou", {18, 1}},
+    KnownShape{"ih", {20, .7f}},
+    KnownShape{"oh", {22, 1}},
+    KnownShape{"aa", {25, .3f}},
+    KnownShape{"aa", {26, 1}},
+    KnownShape{"blink", {45, 1}},
+    KnownShape{"visemeu", {18, 1}},
+    KnownShape{"visemei", {20, .7f}},
+    KnownShape{"visemeo", {22, 1}},
+    KnownShape{"visemeaa", {25, .3f}},
+    KnownShape{"visemeaa", {26, 1}},
+    // VRM 0
+    KnownShape{"joy", {12, 1}},
+    KnownShape{"sorrow", {1, .5f}},
+    KnownShape{"sorrow", {15, 1}},
+    // its vowels, and VRChat's "vrc.v_aa"
+    KnownShape{"u", {18, 1}},
+    KnownShape{"i", {20, .7f}},
+    KnownShape{"o", {22, 1}},
+    KnownShape{"a", {25, .3f}},
+    KnownShape{"a", {26, 1}},
+    KnownShape{"vou", {18, 1}},
+    KnownShape{"vih", {20, .7f}},
+    KnownShape{"voh", {22, 1}},
+    KnownShape{"vaa", {25, .3f}},
+    KnownShape{"vaa", {26, 1}},
+};
+
+// The usual morphs of MikuMikuDance, and a name from above that means the same.
+struct MmdShape {
+    std::string_view name, meaning;
+};
+constexpr std::array kMmd = {
+    MmdShape{"あ", "aa"},
+    MmdShape{"い", "ih"},
+    MmdShape{"う", "ou"},
+    MmdShape{"お", "oh"},
+    MmdShape{"まばたき", "blink"},
+    MmdShape{"ウィンク", "blink_l"},
+    MmdShape{"ウィンク右", "blink_r"},
+    MmdShape{"ウィンク２", "blink_l"},
+    MmdShape{"ウィンク２右", "blink_r"},
+    MmdShape{"ｳｨﾝｸ２右", "blink_r"},
+    MmdShape{"びっくり", "eyeWide"},
+    MmdShape{"じと目", "eyeSquint"},
+    MmdShape{"上", "browsUp"},
+    MmdShape{"下", "browDown"},
+    MmdShape{"怒り", "browDown"},
+    MmdShape{"困る", "browInnerUp"},
+    MmdShape{"にやり", "mouthSmile"},
+    MmdShape{"口角上げ", "mouthSmile"},
+    MmdShape{"口角下げ", "mouthFrown"},
 };
 
 struct KnownLook {
@@ -342,6 +394,8 @@ Sided without_ending(std::vector<std::string> words) {
 }
 
 ShapeMeaning read_name(std::string_view name, bool expression) {
+    for (const MmdShape& known : kMmd)
+        if (known.name == name) name = known.meaning;
     if (const auto unit = read_unit_name(name)) return *unit;
     const std::vector<std::string> words = words_of(without_daz_marks(name));
     if (ShapeMeaning whole = meaning_of_words(words, expression); whole.is_known()) return whole;

@@ -13,7 +13,7 @@ namespace chironomia {
 enum class NameFamily {
     facs,        // "AU12_L", "FACS_AU12", "AU_12_left", "AU_12_LipCornerPuller", "lipCornerPuller_L"
     arkit,       // ARKit's 52: "mouthSmileLeft", "mouthSmile_L"
-    other,       // faceshift, Mixamo, Character Creator, Daz (h_expressions), VRoid, MakeHuman
+    other,       // faceshift, Mixamo, Character Creator, Daz (h_expressions), VRoid, MakeHuman, MMD
     expression,  // VRM: "happy", "blinkLeft"; a whole expression that stands for its most typical unit
 };
 

@@ -56,11 +56,25 @@ INSTANTIATE_TEST_SUITE_P(
         Reading{"Face.M_F00_000_00_Fcl_EYE_Close_L", 45, kLeft, NameFamily::other},
         Reading{"Face.M_F00_000_00_Fcl_MTH_A", 26, kBoth, NameFamily::other, .7f},
         Reading{"eye-left-closure", 45, kLeft, NameFamily::other},
-        Reading{"mouth-corner-puller", 12, kBoth, NameFamily::other}));
+        Reading{"mouth-corner-puller", 12, kBoth, NameFamily::other},
+        // MikuMikuDance
+        Reading{"あ", 26, kBoth, NameFamily::expression},
+        Reading{"い", 20, kBoth, NameFamily::expression, .7f},
+        Reading{"う", 18, kBoth, NameFamily::expression}, Reading{"お", 22, kBoth, NameFamily::expression},
+        Reading{"まばたき", 45, kBoth, NameFamily::facs}, Reading{"ウィンク", 45, kLeft, NameFamily::facs},
+        Reading{"ｳｨﾝｸ２右", 45, kRight, NameFamily::facs}, Reading{"びっくり", 5}, Reading{"怒り", 4},
+        Reading{"口角上げ", 12}, Reading{"困る", 1},
+        // VRM 0 without its extension, and VRChat
+        Reading{"A", 26, kBoth, NameFamily::expression}, Reading{"Blink_L", 45, kLeft, NameFamily::facs},
+        Reading{"Joy", 12, kBoth, NameFamily::expression},
+        Reading{"Sorrow", 15, kBoth, NameFamily::expression},
+        Reading{"vrc.v_aa", 26, kBoth, NameFamily::expression},
+        Reading{"vrc.blink_left", 45, kLeft, NameFamily::facs}));
 
 TEST(ShapeName, OfNothingKnownSaysNothing) {
-    for (const char* name : {"", "morph 3", "mouthLeft", "doublechin", "AU99", "AU6_AU12", "viseme_PP",
-                             "basis", "AE_AA_h", "h_expressions.FV_h", "jaunty", "Fcl_ALL_Joy"}) {
+    for (const char* name :
+         {"", "morph 3", "mouthLeft", "doublechin", "AU99", "AU6_AU12", "viseme_PP", "basis", "AE_AA_h",
+          "h_expressions.FV_h", "jaunty", "Fcl_ALL_Joy", "え", "笑い", "e"}) {
         const ShapeMeaning meaning = read_shape_name(name);
         EXPECT_TRUE(meaning.units.empty()) << name;
         EXPECT_EQ(meaning.look, Look::none) << name;
