@@ -3,11 +3,54 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace chironomia {
 namespace {
 
 constexpr float kMargin = 0.04f;  // of the picture, free on each side
+
+// A leg whose bone lies so far off the vertical does not stand; ours [rad].
+constexpr float kSits = 50 * kPi / 180;
+
+// Straightens the legs of a rest pose that sits, and lifts it until its soles are where they were: the figure will be
+// shown standing there. Others stay as they are.
+Avatar with_standing_rest(Avatar avatar) {
+    const float floor = bounds_of(rest_mesh(avatar)).low.y;
+    bool straightened = false;
+    using enum HumanJoint;
+    const Vec3 down(0, -1, 0);
+    const auto sits = [&](HumanJoint thigh, HumanJoint shin) {
+        if (!avatar.humanoid.has(thigh) || !avatar.humanoid.has(shin)) return false;
+        const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
+        const auto at = [&](HumanJoint part) {
+            return origin(world[static_cast<size_t>(avatar.humanoid[part])]);
+        };
+        const Vec3 bone = at(shin) - at(thigh);
+        return length(bone) > 0 && angle_between(bone, down) > kSits;
+    };
+    for (const auto& [thigh, shin, foot] : {std::tuple(left_upper_leg, left_lower_leg, left_foot),
+                                            std::tuple(right_upper_leg, right_lower_leg, right_foot)}) {
+        if (!sits(thigh, shin)) continue;
+        straightened = true;
+        for (const auto& [from, to] : {std::pair(thigh, shin), std::pair(shin, foot)}) {
+            if (!avatar.humanoid.has(to)) continue;
+            const std::vector<Mat4> world =
+                world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
+            const auto joint = static_cast<size_t>(avatar.humanoid[from]);
+            const Vec3 bone = origin(world[static_cast<size_t>(avatar.humanoid[to])]) - origin(world[joint]);
+            if (!(length(bone) > 0)) continue;
+            const Quat turn = rotation_of(world[joint]);
+            Quat& rest = avatar.skeleton.joints[joint].rest.rotation;
+            rest = normalize(rest * conjugate(turn) * turn_between(bone, down) * turn);
+        }
+    }
+    if (!straightened) return avatar;
+    const float lift = floor - bounds_of(rest_mesh(avatar)).low.y;
+    for (Joint& joint : avatar.skeleton.joints)
+        if (joint.parent < 0) joint.rest.translation.y += lift;
+    return avatar;
+}
 
 // Joint places at rest, by human part.
 class RestJoints {
@@ -193,7 +236,8 @@ Bounds turned(const Bounds& box, const FigureMeasures& figure, const Placement& 
 
 }  // namespace
 
-FigureMeasures measure_figure(const Avatar& avatar) {
+FigureMeasures measure_figure(const Avatar& at_rest) {
+    const Avatar avatar = with_standing_rest(at_rest);
     const RestJoints joints(avatar);
     const PosedMesh mesh = rest_mesh(avatar);
     const Bounds bounds = bounds_of(mesh);
@@ -206,6 +250,7 @@ FigureMeasures measure_figure(const Avatar& avatar) {
     FigureMeasures figure{.forward = facing_of(joints), .floor = bounds.low.y};
     figure.top = top_of_head(mesh, bounds, joints.at(head));
     // Shares of the height of an adult where a joint is missing.
+    figure.head = height_of(joints.at(head) ? joints.at(head) : joints.at(neck), 0.88f);
     figure.shoulders = height_of(joints.between(left_upper_arm), 0.81f);
     figure.hips = height_of(joints.between(left_upper_leg), 0.52f);
     figure.knees = height_of(joints.between(left_lower_leg), 0.28f);
@@ -239,7 +284,7 @@ std::array<Vec3, 8> room_of(const FigureMeasures& figure, Framing framing) {
 FigureMeasures placed(FigureMeasures figure, const Placement& place) {
     const float own_heading = std::atan2(figure.forward.x, figure.forward.z);
     if (figure.room) figure.room = turned(*figure.room, figure, place, place.heading - own_heading);
-    for (float* height : {&figure.top, &figure.shoulders, &figure.hips, &figure.knees}) {
+    for (float* height : {&figure.top, &figure.head, &figure.shoulders, &figure.hips, &figure.knees}) {
         *height -= figure.floor;
     }
     figure.floor = 0;

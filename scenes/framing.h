@@ -18,7 +18,8 @@ struct FigureMeasures {
     Vec3 middle{0};         // between the shoulders, at floor height [m, world]
     float floor = 0;        // height of the soles [m, world]
     float top = 0;          // of the head with its hair [m, world]
-    float shoulders = 0;    // heights of joints [m, world]
+    float head = 0;         // heights of joints [m, world]; that of the neck without a head
+    float shoulders = 0;
     float hips = 0;
     float knees = 0;
     float shoulder_width = 0;  // from upper arm to upper arm [m]
@@ -31,7 +32,7 @@ struct FigureMeasures {
 };
 
 // From the joints of the humanoid map and the vertices; a part that the map lacks is guessed from the
-// figure's height and the proportions of an adult.
+// figure's height and the proportions of an adult. Of a rest pose that sits, as if it stood there.
 FigureMeasures measure_figure(const Avatar& avatar);
 
 enum class Framing {

@@ -41,8 +41,9 @@ Landmarks landmarks_of(const Avatar& avatar, const Joints& rest) {
     Landmarks marks{.head = joint_of(parts, parts.has(head) ? head : neck), .hips = joint_of(parts, hips)};
     if (marks.head >= 0) {
         const Mat4& joint = rest[static_cast<std::size_t>(marks.head)];
-        const Vec3 top(origin(joint).x, measure_figure(avatar).top, origin(joint).z);
-        marks.crown = Vec3(inverse(joint) * Vec4(top, 1));
+        const FigureMeasures figure = measure_figure(avatar);
+        const Vec3 crown = origin(joint) + Vec3(0, figure.top - figure.head, 0);
+        marks.crown = Vec3(inverse(joint) * Vec4(crown, 1));
     }
     marks.hands[0] = {joint_of(parts, left_hand), joint_of(parts, left_middle_2),
                       joint_of(parts, left_middle_3)};

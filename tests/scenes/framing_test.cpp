@@ -57,6 +57,27 @@ TEST(MeasureFigure, GuessesWhatTheMapLacks) {
 }
 
 // Whatever its size and the way it faces, a figure sits in the picture in the same way.
+// The thighs of the figure turned forward and its shins down again, which a chair would hold at the same floor.
+TEST(MeasureFigure, MeasuresWhoSitsAsStanding) {
+    const Avatar standing = stick_figure(2, 0.5f);
+    Avatar seated = standing;
+    const auto turn = [&](HumanJoint part, float angle) {
+        Quat& rest = seated.skeleton.joints[static_cast<size_t>(seated.humanoid[part])].rest.rotation;
+        rest = rest * glm::angleAxis(angle, Vec3(1, 0, 0));
+    };
+    for (const HumanJoint thigh : {HumanJoint::left_upper_leg, HumanJoint::right_upper_leg})
+        turn(thigh, -kPi / 2);
+    for (const HumanJoint shin : {HumanJoint::left_lower_leg, HumanJoint::right_lower_leg})
+        turn(shin, kPi / 2);
+    for (Joint& joint : seated.skeleton.joints)
+        if (joint.parent < 0) joint.rest.translation.y -= bounds_of(rest_mesh(seated)).low.y;
+    const FigureMeasures figure = measure_figure(seated), expected = measure_figure(standing);
+    EXPECT_NEAR(figure.floor, expected.floor, 1e-4);
+    EXPECT_NEAR(figure.top, expected.top, 1e-4);
+    EXPECT_NEAR(figure.hips, expected.hips, 1e-4);
+    EXPECT_NEAR(figure.knees, expected.knees, 1e-4);
+}
+
 TEST(FrameFigure, DoesNotDependOnSizeAndFacing) {
     const Avatar small = stick_figure(0.5f), large = stick_figure(2, 2.0f);
     for (const Framing framing : {Framing::upper, Framing::full, Framing::head}) {
