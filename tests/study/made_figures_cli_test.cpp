@@ -103,7 +103,7 @@ void add_another_person(testing::GltfBuilder& file) {
 
 TEST_F(MadeFiguresCli, AreShownAloneWhereSomebodyElseStandsInTheFile) {
     const Frame alone = picture_of({});
-    testing::GltfBuilder file = made_figure({});
+    testing::GltfBuilder file = testing::made_figure({});
     add_another_person(file);
     file.write_glb(folder_ / "x.glb");
     const Outcome outcome = render(folder_ / "x.glb");
