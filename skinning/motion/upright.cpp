@@ -223,6 +223,11 @@ class Upright {
 
     bool mirror_if_left_handed(KeypointTrack& track, const std::vector<LandmarkFrame>& frames, UpAxis up) {
         const float front = find_body_frame(frames, samples_.beginning, direction_of(up)).front;
+        if (front == 0) {
+            note(
+                "handedness: neither nose nor knees nor toes are seen to show it, so right-handed axes are taken; "
+                "hands of a left-handed space (Unity, Unreal) lie behind the back: negate x or z in the file");
+        }
         if (front >= kMirrored) return false;
         const int axis = direction_of(up).z != 0 ? 1 : 2;
         for (Vec3& point : track.points) point[axis] = -point[axis];
