@@ -275,7 +275,9 @@ TEST_F(Style, IsMappedAndJudged) {
         EXPECT_NEAR(row["chance"].get<double>(), 0.5, 0.2);
         // A model that has hardly learned guesses the style no better than its mean.
         EXPECT_EQ(row["adversary_r2"].is_null(), encodings.back() != "content");
-        if (encodings.back() == "content") EXPECT_LT(row["adversary_r2"].get<double>(), 0.05);
+        if (encodings.back() == "content") {
+            EXPECT_LT(row["adversary_r2"].get<double>(), 0.05);
+        }
     }
     EXPECT_THAT(encodings, ElementsAre("style", "content", "pose", "speech", "text"));
     for (const char* name : {"pose", "speech", "text"}) {
