@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <optional>
+#include <utility>
 
 namespace chironomia {
 namespace {
@@ -13,43 +14,49 @@ constexpr float kMargin = 0.04f;  // of the picture, free on each side
 // A leg whose bone lies so far off the vertical does not stand; ours [rad].
 constexpr float kSits = 50 * kPi / 180;
 
-// Straightens the legs of a rest pose that sits, and lifts it until its soles are where they were: the figure will be
-// shown standing there. Others stay as they are.
-Avatar with_standing_rest(Avatar avatar) {
-    const float floor = bounds_of(rest_mesh(avatar)).low.y;
-    bool straightened = false;
-    using enum HumanJoint;
-    const Vec3 down(0, -1, 0);
-    const auto sits = [&](HumanJoint thigh, HumanJoint shin) {
-        if (!avatar.humanoid.has(thigh) || !avatar.humanoid.has(shin)) return false;
-        const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
-        const auto at = [&](HumanJoint part) {
-            return origin(world[static_cast<size_t>(avatar.humanoid[part])]);
-        };
-        const Vec3 bone = at(shin) - at(thigh);
-        return length(bone) > 0 && angle_between(bone, down) > kSits;
+struct LegJoints {
+    HumanJoint thigh, shin, foot;
+};
+constexpr LegJoints kLegs[] = {
+    {HumanJoint::left_upper_leg, HumanJoint::left_lower_leg, HumanJoint::left_foot},
+    {HumanJoint::right_upper_leg, HumanJoint::right_lower_leg, HumanJoint::right_foot}};
+
+// From joint to joint in the rest pose [m, world]; 0 where one of them is missing.
+Vec3 rest_bone(const Avatar& avatar, HumanJoint from, HumanJoint to) {
+    if (!avatar.humanoid.has(from) || !avatar.humanoid.has(to)) return Vec3(0);
+    const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
+    const auto at = [&](HumanJoint part) {
+        return origin(world[static_cast<size_t>(avatar.humanoid[part])]);
     };
-    for (const auto& [thigh, shin, foot] : {std::tuple(left_upper_leg, left_lower_leg, left_foot),
-                                            std::tuple(right_upper_leg, right_lower_leg, right_foot)}) {
-        if (!sits(thigh, shin)) continue;
-        straightened = true;
-        for (const auto& [from, to] : {std::pair(thigh, shin), std::pair(shin, foot)}) {
-            if (!avatar.humanoid.has(to)) continue;
-            const std::vector<Mat4> world =
-                world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
-            const auto joint = static_cast<size_t>(avatar.humanoid[from]);
-            const Vec3 bone = origin(world[static_cast<size_t>(avatar.humanoid[to])]) - origin(world[joint]);
+    return at(to) - at(from);
+}
+
+// Straightens the legs of a rest pose that sits, and lifts it until its soles are where they were: the figure will be
+// shown standing there. None for others.
+std::optional<Avatar> standing_rest(const Avatar& avatar) {
+    const Vec3 down(0, -1, 0);
+    const auto sits = [&](const LegJoints& leg) {
+        const Vec3 thigh = rest_bone(avatar, leg.thigh, leg.shin);
+        return length(thigh) > 0 && angle_between(thigh, down) > kSits;
+    };
+    if (std::ranges::none_of(kLegs, sits)) return std::nullopt;
+    Avatar standing = avatar;
+    for (const LegJoints& leg : kLegs) {
+        if (!sits(leg)) continue;
+        for (const auto& [from, to] : {std::pair(leg.thigh, leg.shin), std::pair(leg.shin, leg.foot)}) {
+            const Vec3 bone = rest_bone(standing, from, to);
             if (!(length(bone) > 0)) continue;
-            const Quat turn = rotation_of(world[joint]);
-            Quat& rest = avatar.skeleton.joints[joint].rest.rotation;
+            const auto joint = static_cast<size_t>(avatar.humanoid[from]);
+            const Quat turn =
+                rotation_of(world_from_joints(standing.skeleton, rest_transforms(standing.skeleton))[joint]);
+            Quat& rest = standing.skeleton.joints[joint].rest.rotation;
             rest = normalize(rest * conjugate(turn) * turn_between(bone, down) * turn);
         }
     }
-    if (!straightened) return avatar;
-    const float lift = floor - bounds_of(rest_mesh(avatar)).low.y;
-    for (Joint& joint : avatar.skeleton.joints)
+    const float lift = bounds_of(rest_mesh(avatar)).low.y - bounds_of(rest_mesh(standing)).low.y;
+    for (Joint& joint : standing.skeleton.joints)
         if (joint.parent < 0) joint.rest.translation.y += lift;
-    return avatar;
+    return standing;
 }
 
 // Joint places at rest, by human part.
@@ -237,7 +244,8 @@ Bounds turned(const Bounds& box, const FigureMeasures& figure, const Placement& 
 }  // namespace
 
 FigureMeasures measure_figure(const Avatar& at_rest) {
-    const Avatar avatar = with_standing_rest(at_rest);
+    const std::optional<Avatar> standing = standing_rest(at_rest);
+    const Avatar& avatar = standing ? *standing : at_rest;
     const RestJoints joints(avatar);
     const PosedMesh mesh = rest_mesh(avatar);
     const Bounds bounds = bounds_of(mesh);
