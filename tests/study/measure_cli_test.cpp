@@ -420,7 +420,7 @@ TEST_F(Measure, SaysWhatIsWrong) {
                 HasSubstr("b.h5: it has no body with both shoulders, in whose widths styles are compared"));
     EXPECT_THAT(refusal({body, "--source", body}, 2), HasSubstr("--source requires --against"));
     EXPECT_THAT(refusal({"none.bvh"}, 3), HasSubstr("none.bvh"));
-    EXPECT_THAT(refusal({}, 2), HasSubstr("motions"));
+    EXPECT_THAT(refusal({}, 2), HasSubstr("--motion is required"));
     EXPECT_THAT(refusal({body, "--motion-fps", "fast"}, 2), HasSubstr("--motion-fps"));
 }
 

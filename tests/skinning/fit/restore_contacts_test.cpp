@@ -131,7 +131,8 @@ TEST(RestoreContacts, RefusesALabelThatNamesNoPart) {
     motion.labels = {{.name = "left touch", .values = {"nothing", "knee"}, .frames = {0, 1}}};
     EXPECT_EQ(
         testing::refusal_of([&] { touches_of(motion); }),
-        "a.h5: the label \"left touch\" is \"knee\" in frame 1; it may be nothing, head, trunk, forearm, upper arm");
+        "a.h5: the label \"left touch\" is \"knee\" in frame 1; it may be nothing, head, trunk, hand, forearm, "
+        "upper arm");
 }
 
 }  // namespace

@@ -280,7 +280,7 @@ TEST_F(ReadLexicon, RefusesGesturesThatItDoesNotUnderstand) {
          "\"wrist_y\", "
          "\"wrist_z\", \"palm\", \"shape\", \"swivel\""},
         {[](Json& j) { arm_in(j, 1)["touches"] = "knee"; },
-         "own.json: gesture \"offer\".poses[1].arm.touches: is \"knee\", which is none of \"forearm\", \"head\", "
+         "own.json: gesture \"offer\".poses[1].arm.touches: is \"knee\", which is none of \"forearm\", \"hand\", \"head\", "
          "\"nothing\", \"trunk\", \"upper arm\""},
         {[](Json& j) { gesture_in(j)["functions"] = {"performative=gret"}; },
          "own.json: gesture \"offer\".functions[0]: is \"performative=gret\", which no text can ask for; did "
