@@ -32,9 +32,9 @@ AudioPart read_audio_part(const std::filesystem::path& file, double begin, std::
 // without pictures. No part of the file but its beginning is read. Throws Error as read_audio if it holds no sound.
 double sound_after_pictures(const std::filesystem::path& file);
 
-// What is heard late by an unknown time: an MP3 without the header of Xing and LAME, and bare AAC (ADTS), do not say how
-// many samples their encoder put before the sound, so nobody leaves them out. One sentence, which gives the delay if
-// LAME or FFmpeg wrote it; none for any other file. No part of the file but its beginning is read. Throws Error as
+// What is heard late by an unknown time: an MP3 without the header of Xing and LAME, and bare AAC (ADTS), do not say
+// how many samples their encoder put before the sound, so nobody leaves them out. One sentence, which gives the delay
+// if LAME or FFmpeg wrote it; none for any other file. No part of the file but its beginning is read. Throws Error as
 // read_audio if it holds no sound.
 std::optional<std::string> unstated_delay(const std::filesystem::path& file);
 

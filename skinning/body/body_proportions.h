@@ -46,15 +46,15 @@ size_t count_rigid_pairs(const KeypointTrack& track);
 
 inline constexpr size_t kFewestBones = 4;  // ours: so many rigid pairs are no chance; turns have none
 
-// How much of the way in which bones of (x, y) change their squared lengths is left in those of (x, y, z): the sum, over
-// the bones of odd_bones, of the range of x² + y² + z² from the 10th to the 90th percentile, over that of x² + y². It is
-// 0 for a body in space, as z makes up for what (x, y) lacks, and 1 or more if z has nothing to do with them. Bones whose
-// x² + y² changes by less than a fifth of its median do not count; nothing if fewer than two do.
+// How much of the way in which bones of (x, y) change their squared lengths is left in those of (x, y, z): the sum,
+// over the bones of odd_bones, of the range of x² + y² + z² from the 10th to the 90th percentile, over that of x² + y².
+// It is 0 for a body in space, as z makes up for what (x, y) lacks, and 1 or more if z has nothing to do with them.
+// Bones whose x² + y² changes by less than a fifth of its median do not count; nothing if fewer than two do.
 std::optional<double> left_of_changes(const KeypointTrack& track);
 
 // Below it the third number is a depth. Ours, chosen on 76 recordings of CMU (subjects 1, 3, ... 13), seen from the
-// front, aslant and from the side: made scores of detectors have 0.91 and more, depth has 0, and 0.17 to 0.73 in 95 % of
-// those from the front and aslant if it is off by 2 cm, but up to 40 from the side. Of the 44 recordings of other
+// front, aslant and from the side: made scores of detectors have 0.91 and more, depth has 0, and 0.17 to 0.73 in 95 %
+// of those from the front and aslant if it is off by 2 cm, but up to 40 from the side. Of the 44 recordings of other
 // subjects scores have 0.97 and more, depth 0, 0.22 to 0.68 and up to 43.
 inline constexpr double kLeftOfDepth = 0.9;
 

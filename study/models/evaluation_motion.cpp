@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -10,8 +9,6 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/body/joint_landmarks.h"
-#include "skinning/body/keypoint_layout.h"
 #include "skinning/signal/late_beginning.h"
 #include "skinning/signal/resample.h"
 #include "study/measure/adaptation.h"
@@ -24,7 +21,7 @@
 #include "study/measure/pose_errors.h"
 #include "study/measure/style_distance.h"
 #include "study/measure/time_warping.h"
-#include "study/measure/vectors/frechet.h"
+#include "study/models/upper_body.h"
 #include "synth/corpus/face_features.h"
 #include "synth/features/spectrum.h"
 
@@ -34,126 +31,12 @@ namespace {
 constexpr double kActiveIntensity = 0.5;  // of an intensity
 constexpr int kSmileUnit = 12;
 
-// The points that models of gestures move, as far as a motion has them.
-constexpr std::array<Landmark, 10> kUpperBody = {
-    Landmark::head,          Landmark::nose,           Landmark::left_eye,   Landmark::right_eye,
-    Landmark::left_shoulder, Landmark::right_shoulder, Landmark::left_elbow, Landmark::right_elbow,
-    Landmark::left_wrist,    Landmark::right_wrist};
-
-Json or_null(std::optional<double> value) {
-    return value ? Json(*value) : Json();
-}
-
-// (T, landmarks) of whatever the motion has of a body; none if it has nothing.
-std::vector<LandmarkFrame> landmarks_of(const Motion& motion) {
-    std::vector<size_t> all(motion.frames);
-    std::iota(all.begin(), all.end(), size_t{0});
-    if (motion.joints) return chironomia::landmarks_of(*motion.joints, all);
-    if (motion.keypoints) return chironomia::landmarks_of(*motion.keypoints, all);
-    std::vector<LandmarkFrame> frames;
-    if (!motion.picture) return frames;
-    const PictureTrack& track = *motion.picture;
-    frames.assign(motion.frames, LandmarkFrame(kLandmarks));
-    for (std::size_t k = 0; k < track.names.size(); ++k) {
-        const auto landmark = landmark_named(track.names[k]);
-        if (!landmark) continue;
-        for (std::size_t t = 0; t < motion.frames; ++t) {
-            const std::size_t i = t * track.names.size() + k;
-            // Up is up from here on.
-            if (track.confidence[i] >= kSeen)
-                frames[t][static_cast<std::size_t>(*landmark)] =
-                    Vec3(track.points[i].x, -track.points[i].y, 0);
-        }
-    }
-    return frames;
-}
-
-const std::optional<Vec3>& place(const LandmarkFrame& frame, Landmark landmark) {
-    return frame[static_cast<std::size_t>(landmark)];
-}
-
-// The mean width of the shoulders; none where both are never seen together.
-std::optional<double> shoulder_width(const std::vector<LandmarkFrame>& frames) {
-    ChunkScores widths;
-    for (const LandmarkFrame& frame : frames) {
-        const auto &left = place(frame, Landmark::left_shoulder),
-                   &right = place(frame, Landmark::right_shoulder);
-        if (!left || !right) continue;
-        widths.sum += distance(*left, *right);
-        ++widths.count;
-    }
-    const auto width = widths.mean();
-    return width && *width > 0 ? width : std::nullopt;
-}
-
-enum class Origin { neck, shoulders };
-
-// The neck where all have it, so that all are measured alike.
-Origin shared_origin(std::span<const Motion* const> motions) {
-    const bool has_necks = std::ranges::all_of(motions, [](const Motion* motion) {
-        return std::ranges::any_of(landmarks_of(*motion), [](const LandmarkFrame& frame) {
-            return place(frame, Landmark::neck).has_value();
-        });
-    });
-    return has_necks ? Origin::neck : Origin::shoulders;
-}
-
-std::optional<Vec3> origin_of(const LandmarkFrame& frame, Origin origin) {
-    if (origin == Origin::neck) return place(frame, Landmark::neck);
-    const auto &left = place(frame, Landmark::left_shoulder), &right = place(frame, Landmark::right_shoulder);
-    return left && right ? std::optional(0.5f * (*left + *right)) : std::nullopt;
-}
-
-struct BodyPaths {
-    std::vector<Landmark> points;  // without the neck
-    PointPaths paths;              // relative to the origin
-    bool in_shoulders = true;
-};
-
-// In the picture what is deep is flat, and shoulders are as wide as they are seen from the front.
-std::optional<BodyPaths> body_of(const Motion& motion, Origin from, Axes axes = Axes::space) {
-    std::vector<LandmarkFrame> frames = landmarks_of(motion);
-    for (LandmarkFrame& frame : frames)
-        for (std::optional<Vec3>& point : frame)
-            if (point && axes == Axes::picture) point->z = 0;
-    BodyPaths body;
-    for (const Landmark landmark : kUpperBody) {
-        if (std::any_of(frames.begin(), frames.end(),
-                        [&](const LandmarkFrame& frame) { return place(frame, landmark).has_value(); }))
-            body.points.push_back(landmark);
-    }
-    if (body.points.empty()) return std::nullopt;
-    const auto width = shoulder_width(frames);
-    body.in_shoulders = width.has_value();
-    body.paths = {.fps = motion.fps, .joints = body.points.size()};
-    for (const LandmarkFrame& frame : frames) {
-        const auto origin = origin_of(frame, from);
-        for (const Landmark landmark : body.points) {
-            const auto& point = place(frame, landmark);
-            const bool known = origin && point;
-            body.paths.points.push_back(known ? (*point - *origin) / static_cast<float>(width.value_or(1))
-                                              : Vec3(0));
-            body.paths.missing.push_back(!known);
-        }
-    }
-    return body;
-}
-
 std::vector<std::size_t> wrists_of(const std::vector<Landmark>& points) {
     std::vector<std::size_t> wrists;
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i] == Landmark::left_wrist || points[i] == Landmark::right_wrist) wrists.push_back(i);
     }
     return wrists;
-}
-
-PointPaths paths_of(const BodyPaths& body, const std::vector<Landmark>& points) {
-    std::vector<std::size_t> places;
-    for (const Landmark point : points) {
-        const auto found = std::ranges::find(body.points, point);
-        places.push_back(static_cast<std::size_t>(found - body.points.begin()));
-    }
-    return paths_of(body.paths, places);
 }
 
 Json describe_body(const PointPaths& paths, const BodyPaths& body, const std::vector<Landmark>& points) {
@@ -275,21 +158,6 @@ void note_missing(const FaceColumns& face, const std::string& source, const Face
             format("{}: has {}, which {} lacks; not compared", source, join(missing), other_source));
 }
 
-std::vector<Landmark> shared_points(std::span<const BodyPaths> bodies) {
-    std::vector<Landmark> shared;
-    for (const Landmark point : kUpperBody) {
-        const bool is_shared = std::ranges::all_of(bodies, [&](const BodyPaths& body) {
-            return std::ranges::find(body.points, point) != body.points.end();
-        });
-        if (is_shared) shared.push_back(point);
-    }
-    return shared;
-}
-
-bool is_in_space(const PointPaths& paths) {
-    return std::ranges::any_of(paths.points, [](const Vec3& point) { return point.z != 0; });
-}
-
 // Minkowski's and Frechet's distances and content preservation take the frames in which both have all points that they
 // share.
 std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours, Axes axes) {
@@ -310,8 +178,6 @@ std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours
     if (x.empty()) return std::nullopt;
     const std::size_t width = 3 * a.joints;
     const PoseErrors errors = pose_errors(a, b, axes);
-    const Vectors people = poses_of(a, axes), model = poses_of(b, axes);
-    const bool are_enough = std::min(people.count(), model.count()) > people.width;
     return Json{{"feature", "body"},
                 {"frames", x.size() / width},
                 {"minkowski_1", minkowski_distance(x, z, width, 1)},
@@ -323,10 +189,23 @@ std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours
                 {"velocity_l1", or_null(errors.velocity_l1)},
                 {"pck_01", or_null(errors.pck_01)},
                 {"pck_02", or_null(errors.pck_02)},
-                {"frechet", are_enough ? Json(frechet_distance(people, model)) : Json()}};
+                {"frechet", or_null(pose_distance(a, b, axes))}};
 }
 
-// At the rate of `other` and cut to the shorter of both, with a note of what was changed.
+std::vector<float> smile_of(const Motion& motion) {
+    const bool known = motion.face && [&] {
+        const std::vector<int> units = units_of(*motion.face);
+        return std::find(units.begin(), units.end(), kSmileUnit) != units.end();
+    }();
+    if (!known) {
+        throw Error(format("{}: it has no AU12, by which two people are compared; give a face with it",
+                           motion.source));
+    }
+    return intensities_of(*motion.face, motion.frames, std::array<int, 1>{kSmileUnit});
+}
+
+}  // namespace
+
 std::pair<Motion, Motion> aligned(const Motion& motion, const Motion& other,
                                   std::vector<std::string>& notes) {
     if (motion.fps != other.fps) {
@@ -349,20 +228,6 @@ std::pair<Motion, Motion> aligned(const Motion& motion, const Motion& other,
     }
     return {resample(same_rate, other.fps, frames), resample(other, other.fps, frames)};
 }
-
-std::vector<float> smile_of(const Motion& motion) {
-    const bool known = motion.face && [&] {
-        const std::vector<int> units = units_of(*motion.face);
-        return std::find(units.begin(), units.end(), kSmileUnit) != units.end();
-    }();
-    if (!known) {
-        throw Error(format("{}: it has no AU12, by which two people are compared; give a face with it",
-                           motion.source));
-    }
-    return intensities_of(*motion.face, motion.frames, std::array<int, 1>{kSmileUnit});
-}
-
-}  // namespace
 
 std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions) {
     std::vector<const Motion*> with_bodies;
@@ -538,137 +403,6 @@ void measure_beats(const Motion& motion, const Audio& sound, MotionMeasures& mea
                               {"onsets", onsets.size()},
                               {"alignment", or_null(beat_alignment(beats, onsets, sigma))},
                               {"chance", or_null(chance_alignment(beats, onsets, sigma, seconds))}});
-}
-
-namespace {
-
-std::string feature_of(const Json& row) {
-    return row.value("feature", row.value("metric", ""));
-}
-
-// The mean of the rows of one feature, one of each file.
-Json mean_row(const std::string& feature, const std::vector<const Json*>& rows,
-              std::vector<std::string>& notes) {
-    Json mean;
-    for (const auto& [key, first] : rows[0]->items()) {
-        if (first.is_string()) mean[key] = first;
-        if (first.is_string() || key == "ks_p") continue;
-        ChunkScores values;
-        for (const Json* row : rows) {
-            const Json value = row->value(key, Json());
-            if (!value.is_number()) continue;
-            values.sum += value.get<double>();
-            ++values.count;
-        }
-        mean[key] = or_null(values.mean());
-        const auto known = static_cast<std::size_t>(values.count);
-        if (known > 0 && known < rows.size()) {
-            notes.push_back(
-                format("the mean of {}{} is that of {} of {} files; it is not defined in the others", feature,
-                       feature.empty() ? key : " " + key, known, rows.size()));
-        }
-    }
-    return mean;
-}
-
-std::vector<Json> mean_rows(std::span<const MotionMeasures> all, std::vector<Json> MotionMeasures::*group,
-                            std::vector<std::string>& notes) {
-    std::vector<std::string> features;
-    std::map<std::string, std::vector<const Json*>> rows;
-    for (const MotionMeasures& one : all) {
-        for (const Json& row : one.*group) {
-            const std::string feature = feature_of(row);
-            if (rows[feature].empty()) features.push_back(feature);
-            rows[feature].push_back(&row);
-        }
-    }
-    std::vector<Json> means;
-    for (const std::string& feature : features) {
-        if (rows[feature].size() == all.size()) {
-            means.push_back(mean_row(feature, rows[feature], notes));
-        } else {
-            notes.push_back(format("{} of {} files have {}, so it has no mean", rows[feature].size(),
-                                   all.size(), feature.empty() ? "a body" : feature));
-        }
-    }
-    return means;
-}
-
-void append(PointPaths& all, const PointPaths& paths, const std::vector<std::size_t>& places) {
-    for (std::size_t t = 0; t < paths.frames(); ++t) {
-        for (const std::size_t place : places) {
-            const bool known = place < paths.joints && paths.has(t, place);
-            all.points.push_back(known ? paths.points[t * paths.joints + place] : Vec3(0));
-            all.missing.push_back(!known);
-        }
-    }
-}
-
-PointPaths changes_of(const PointPaths& paths) {
-    PointPaths changes{.fps = paths.fps, .joints = paths.joints, .points = {}};
-    for (std::size_t t = 1; t < paths.frames(); ++t) {
-        for (std::size_t j = 0; j < paths.joints; ++j) {
-            const std::size_t now = t * paths.joints + j, before = now - paths.joints;
-            changes.points.push_back((paths.points[now] - paths.points[before]) *
-                                     static_cast<float>(paths.fps));
-            changes.missing.push_back(!paths.has(t, j) || !paths.has(t - 1, j));
-        }
-    }
-    return changes;
-}
-
-Json distance_of(const PointPaths& people, const PointPaths& model, const std::vector<std::size_t>& points,
-                 Axes axes) {
-    const Vectors a = poses_of(paths_of(people, points), axes), b = poses_of(paths_of(model, points), axes);
-    const bool are_enough = std::min(a.count(), b.count()) > a.width;
-    return are_enough ? Json(frechet_distance(a, b)) : Json();
-}
-
-}  // namespace
-
-MotionMeasures mean_of(const std::string& of, std::span<const MotionMeasures> all) {
-    MotionMeasures mean{.source = format("{}: mean of {}", of, all.size())};
-    for (const auto group : {&MotionMeasures::body, &MotionMeasures::face, &MotionMeasures::near,
-                             &MotionMeasures::style, &MotionMeasures::pair, &MotionMeasures::beats})
-        mean.*group = mean_rows(all, group, mean.notes);
-    for (std::string& note : mean.notes) note = format("{}: {}", of, note);
-    return mean;
-}
-
-PoseClouds::PoseClouds() : shared_(kUpperBody.size(), true) {
-    for (PointPaths* paths : {&people_.poses, &people_.changes, &model_.poses, &model_.changes})
-        paths->joints = kUpperBody.size();
-}
-
-void PoseClouds::add(const Motion& motion, const Motion& reference) {
-    std::vector<std::string> notes;  // measure_against has them
-    const auto [ours, truth] = aligned(motion, reference, notes);
-    const auto people = body_of(truth, Origin::shoulders), model = body_of(ours, Origin::shoulders);
-    if (!people || !model || !people->in_shoulders || !model->in_shoulders) return;
-    for (const auto& [body, cloud] : {std::pair{&*people, &people_}, std::pair{&*model, &model_}}) {
-        std::vector<std::size_t> places;
-        for (std::size_t k = 0; k < kUpperBody.size(); ++k) {
-            const auto found = std::ranges::find(body->points, kUpperBody[k]);
-            places.push_back(static_cast<std::size_t>(found - body->points.begin()));
-            if (found == body->points.end()) shared_[k] = false;
-        }
-        flat_ = flat_ || !is_in_space(body->paths);
-        append(cloud->poses, body->paths, places);
-        append(cloud->changes, changes_of(body->paths), places);
-    }
-}
-
-std::optional<Json> PoseClouds::row() const {
-    std::vector<std::size_t> points;
-    for (std::size_t k = 0; k < shared_.size(); ++k)
-        if (shared_[k]) points.push_back(k);
-    if (people_.poses.points.empty() || points.empty()) return std::nullopt;
-    const Axes axes = flat_ ? Axes::picture : Axes::space;
-    return Json{{"feature", "body"},
-                {"frames", people_.poses.frames()},
-                {"points", points.size()},
-                {"frechet", distance_of(people_.poses, model_.poses, points, axes)},
-                {"velocity_frechet", distance_of(people_.changes, model_.changes, points, axes)}};
 }
 
 }  // namespace chironomia::study

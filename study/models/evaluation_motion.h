@@ -4,15 +4,19 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/audio.h"
 #include "core/body/motion.h"
 #include "core/files/json.h"
 #include "study/analysis/table.h"
-#include "study/measure/movement.h"
 
 namespace chironomia::study {
+
+inline Json or_null(std::optional<double> value) {
+    return value ? Json(*value) : Json();
+}
 
 // What was measured of one motion: rows of numbers by name, null where they are not defined.
 struct MotionMeasures {
@@ -50,31 +54,8 @@ void measure_pair(const Motion& motion, const Motion& partner, MotionMeasures& m
 // 32 ms.
 void measure_beats(const Motion& motion, const Audio& sound, MotionMeasures& measures);
 
-// Of a folder, which `of` names: the mean over its files of each number, of features that all of them have; the notes say what was left out, and how many
-// files have no PCC or the like.
-MotionMeasures mean_of(const std::string& of, std::span<const MotionMeasures> all);
-
-// The upper bodies of many pairs of a motion and its reference, in widths of the shoulders and relative to their middle:
-// all poses of the ones against all of the others, by the squared Frechet distance (frechet.h), and so the changes from
-// frame to frame, at the rates of the references. No learned encoder is in between, so these are not the FGD of papers.
-class PoseClouds {
-  public:
-    PoseClouds();
-
-    void add(const Motion& motion, const Motion& reference);
-    // As a row of `near`: null where there are too few frames. None without a pair that has both shoulders. A point
-    // counts if all files have it, depth if all have it.
-    std::optional<Json> row() const;
-
-  private:
-    struct Cloud {
-        PointPaths poses, changes;
-    };
-
-    std::vector<bool> shared_;  // by point of the upper body
-    bool flat_ = false;
-    Cloud people_, model_;
-};
+// At the rate of `other` and cut to the shorter of both, with a note of what was changed.
+std::pair<Motion, Motion> aligned(const Motion& motion, const Motion& other, std::vector<std::string>& notes);
 
 // "body", "face", "near", "style", "pair", "beats": those that have rows.
 std::vector<analysis::Table> tables_of(const std::vector<MotionMeasures>& all);

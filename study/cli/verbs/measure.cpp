@@ -13,6 +13,7 @@
 #include "study/cli/options/option_values.h"
 #include "study/cli/verbs/verbs.h"
 #include "study/models/evaluation_baselines.h"
+#include "study/models/evaluation_folder.h"
 #include "study/models/evaluation_motion.h"
 #include "study/models/motion_folder.h"
 
