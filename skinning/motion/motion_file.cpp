@@ -232,4 +232,10 @@ Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) 
     return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;
 }
 
+bool may_be_motion(const std::filesystem::path& file) {
+    const std::string ending = to_lower(file.extension().string());
+    return !file.filename().string().starts_with('.') &&
+           std::ranges::find(kMotionEndings, ending) != kMotionEndings.end();
+}
+
 }  // namespace chironomia

@@ -2,6 +2,7 @@
 // brought to metres, +y up, facing +z.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -46,5 +47,13 @@ double turn_named(std::string_view name);
 // set by hand. Throws Error if the file is missing, broken, ambiguous or no motion, or if its rate, or the
 // one that was set, is none of a motion (skinning/signal/frame_rate.h).
 Motion read_motion(const std::filesystem::path& file, const MotionHints& hints = {});
+
+// The endings of files that are taken for motions in folders; animated glTF, which may be avatars as well, is named one
+// by one.
+inline constexpr std::array<const char*, 7> kMotionEndings = {".bvh",  ".npz", ".npy", ".csv",
+                                                              ".json", ".h5",  ".hdf5"};
+
+// Whether a file of a folder has such an ending; not what macOS hides beside its files ("._a.bvh").
+bool may_be_motion(const std::filesystem::path& file);
 
 }  // namespace chironomia

@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "raster/images/frame_stack.h"
 #include "scenes/scene_file.h"
+#include "skinning/motion/motion_file.h"
 #include "study/analysis/answers.h"
 #include "study/record/study_folder.h"
 #include "synth/speech/utf8.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 // The files that are read in folders.
 const std::vector<std::string> kOpenPose = {"_keypoints.json"};
-const std::vector<std::string> kMotions = {".bvh", ".npz", ".npy", ".csv", ".json", ".h5", ".hdf5"};
+const std::vector<std::string> kMotions(kMotionEndings.begin(), kMotionEndings.end());
 const std::vector<std::string> kSounds = {".wav", ".flac", ".ogg", ".mp3"};
 const std::vector<std::string> kPictures = {".png", ".exr", ".mp4", ".webm"};
 const std::vector<std::string> kBert = {"model.safetensors", "model.pt", "vocab.txt"};

@@ -13,6 +13,7 @@
 #include "scenes/scene_file.h"
 #include "skinning/face/face_fit.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/motion/motion_file.h"
 #include "skinning/motion/picture/openpose.h"
 #include "skinning/motion/points/bodies_json.h"
 #include "skinning/signal/resample.h"
@@ -35,12 +36,6 @@ struct MotionFile {
     fs::path file;
     std::string name;
 };
-
-bool may_be_motion(const fs::path& file) {
-    constexpr std::array kEndings = {".bvh", ".npz", ".npy", ".csv", ".json", ".h5", ".hdf5"};
-    const std::string ending = to_lower(file.extension().string());
-    return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
-}
 
 // In the order of their names. A folder of OpenPose or Panoptic is a motion, another one holds motions.
 void add_motions(std::vector<MotionFile>& motions, const fs::path& path, const std::string& name,

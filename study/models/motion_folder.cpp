@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/motion/motion_file.h"
 #include "skinning/motion/picture/openpose.h"
 #include "skinning/motion/points/bodies_json.h"
 
@@ -18,8 +19,8 @@ bool is_motion_folder(const fs::path& path) {
 }
 
 bool may_be(const fs::path& file, FolderOf what) {
-    const std::set<std::string> motions = {".bvh", ".npz", ".npy", ".csv", ".json", ".h5", ".hdf5"};
     const std::set<std::string> sounds = {".wav", ".flac", ".ogg", ".opus", ".mp3", ".m4a", ".mp4"};
+    if (file.filename().string().starts_with('.')) return false;  // macOS hides files beside others
     if (fs::is_directory(file)) return what != FolderOf::sounds && is_motion_folder(file);
     const std::string ending = to_lower(file.extension().string());
     // Beside an array a JSON of its name says how it is read.
@@ -27,7 +28,7 @@ bool may_be(const fs::path& file, FolderOf what) {
         return fs::exists(fs::path(file).replace_extension(array));
     };
     if (ending == ".json" && (is_beside(".npz") || is_beside(".npy"))) return false;
-    return (what == FolderOf::sounds ? sounds : motions).contains(ending);
+    return what == FolderOf::sounds ? sounds.contains(ending) : may_be_motion(file);
 }
 
 std::string name_of(const fs::path& file) {

@@ -238,6 +238,7 @@ TEST_F(Measure, ComparesFoldersByTheNamesOfTheirFiles) {
     write("emage/gt_a.h5", reaching());
     for (const char* name : {"true/a.h5", "true/b.h5", "true/c.h5"}) write(name, reaching());
     write_text(folder_ / "made/readme.txt", "no motion");
+    write_text(folder_ / "made/._a.bvh", "what macOS writes beside a file");
     const std::string made = (folder_ / "made").string(), recorded = (folder_ / "true").string();
     const Outcome shown = run_chironomia({"measure", made, "--against", recorded, "--json"});
     ASSERT_EQ(shown.exit_code, 0) << shown.err;
