@@ -94,10 +94,11 @@ const fs::path& partner_of(const Partners& partners, const fs::path& given, cons
 std::vector<std::string> without_motion(const Partners& references, const std::vector<NamedMotion>& motions,
                                         std::size_t given) {
     std::vector<std::string> names;
-    for (const auto& [name, file] : references) {
-        const bool is_paired = std::ranges::any_of(
-            motions, [&](const NamedMotion& motion) { return motion.name == name && motion.given == given; });
-        if (!is_paired) names.push_back(name);
+    for (const auto& reference : references) {
+        const bool is_paired = std::ranges::any_of(motions, [&](const NamedMotion& motion) {
+            return motion.name == reference.first && motion.given == given;
+        });
+        if (!is_paired) names.push_back(reference.first);
     }
     return names;
 }
