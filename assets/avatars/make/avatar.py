@@ -24,7 +24,8 @@ TUCK, TUCK_MARGIN = 0.005, 0.006  # [m] that skin is drawn in, but for the last 
 CLOTH_REACH = 0.05  # [m] a cloth lies no further from the skin that it covers
 
 
-SKIN_TRIANGLES = 13800
+SKIN_TRIANGLES = 13300
+SHOULDER = 0.08  # [m] around a shoulder cloth is rounded, and less and less as far again
 ARMPIT_STEPS = 4  # of smoothing, so that no cloth sticks out of the armpit of a raised arm
 SLEEVE_OFF, SLEEVE_REACH = 0.008, 0.05  # [m] short sleeves stand off near their rim, so that a bent arm stays inside
 EAR_FROM = 0.066  # [m] from the middle of the head
@@ -111,6 +112,9 @@ class Maker:
         if keep is not None:
             quads, uv_quads = quads[keep], uv_quads[keep]
         part = surface.build(points, normals, quads, proxy.mesh.uvs, uv_quads, weights, moves, turns)
+        if name == "shirt":
+            near = cKDTree(self.joints[arms]).query(part.points)[0]
+            part = surface.rounded(part, np.clip(2 - near / SHOULDER, 0, 1))
         self.surfaces.append((name, surface.thinned(part, wanted) if wanted else part))
 
     def add_eyes(self):

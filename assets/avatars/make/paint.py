@@ -45,6 +45,7 @@ def mottling(size, seed):
 # Where things lie in MakeHuman's skin layout, u and v up.
 LIPS_BOX = (0.885, 0.935, 0.455, 0.51)
 EYES_BOX = (0.815, 0.868, 0.41, 0.56)
+HANDS_BOX = (0.355, 0.785, 0.0, 0.21)
 CHEEKS = ((0.865, 0.55), (0.865, 0.415))
 
 
@@ -62,6 +63,7 @@ def skin(sources, person):
     image = image * (np.array(person.colours["skin"]) / cheeks)
     image = _clear_lids(image, np.array(person.colours["skin"]))
     image = _redden_lips(image, np.array(person.colours["lips"]))
+    image = _warm_palms(image, np.array(person.colours["skin"]))
     grain = mottling(SKIN_SIZE, 11)[..., None]
     tint = np.array([0.010, 0.013, 0.014])  # blood shows more in green and blue
     return np.clip(image * (1 + grain * tint), 0, 1)
@@ -93,6 +95,17 @@ def _redden_lips(image, colour):
     luma = part @ LUMA
     wanted = colour * (luma / np.median(luma[mask[..., 0] > 0.6]))[..., None]
     image[rows] = part + 0.75 * mask * (wanted - part)
+    return image
+
+
+def _warm_palms(image, skin_colour):
+    """Palms are lighter than the cheeks by 0.7 of what is painted, in the colour of the skin, with soft edges."""
+    rows = _box(image, HANDS_BOX)
+    part = image[rows]
+    luma = part @ LUMA
+    lighter = np.maximum(gaussian_filter(luma, 3) / (skin_colour @ LUMA) - 1, 0)[..., None]
+    palm = skin_colour * (1 + 0.7 * lighter) * (luma / gaussian_filter(luma, 3))[..., None]
+    image[rows] = part + np.minimum(4 * lighter, 0.75) * (palm - part)
     return image
 
 
