@@ -51,7 +51,8 @@ struct Material {
     float alpha_cutoff = 0.5f;  // for AlphaMode::mask
     bool double_sided = false;
     bool unlit = false;
-    float coat = 0;  // how much of a clear, wet layer lies over it, in [0, 1]; eyes, and thinly skin
+    Vec3 reflectance{0.04f};  // straight on, where it is no metal, linear, in [0, 1]
+    float coat = 0;           // how much of a clear, wet layer lies over it, in [0, 1]; eyes, and thinly skin
     float coat_roughness = 0;
     // How much rougher highlights are along a direction of the surface than across it, in [0, 1]; hair, brushed metal.
     // The direction turns from the tangent towards the bitangent.

@@ -147,7 +147,7 @@ Lanes<Vec3> RayLight::seen(const Lanes<LitPoint>& points, LaneMask active) const
         const SurfacePoint& surface = points[lane].surface;
         shaded[lane] = {.normal = surface.normal,
                         .towards_eye = points[lane].towards_eye,
-                        .mirror = shading::mirror_of(Vec3(surface.base), surface.metal),
+                        .mirror = shading::mirror_of(Vec3(surface.base), surface.metal, surface.reflectance),
                         .rough = surface.rough,
                         .ambient_occlusion = unoccluded[lane] * surface.occlusion,
                         .scatter = surface.scatter,

@@ -125,6 +125,7 @@ SurfacePoint surface_point(const RayFigure& figure, const Ray& ray, const RayHit
     point.rough = std::clamp(point.rough, 0.2f, 1.0f);
     if (maps.occlusion)
         point.occlusion += material.occlusion_strength * (maps.occlusion->at(uv, width).r - 1);
+    point.reflectance = material.reflectance;
     point.scatter = material.scatter;
     point.coat = material.coat;
     point.coat_rough = material.coat_roughness;

@@ -15,6 +15,7 @@ struct SurfacePoint {
     float metal = 0;       // in [0, 1]
     float rough = 1;       // in [0.2, 1]
     float occlusion = 1;   // of the texture, in [0, 1]
+    Vec3 reflectance{0};   // as Material::reflectance
     Vec3 scatter{0};       // as Material::scatter
     float coat = 0;        // as Material::coat
     float coat_rough = 0;  // as Material::coat_roughness

@@ -218,6 +218,7 @@ void GlRenderer::draw_part(size_t index, const PosedSurface& posed) {
     gl_.Uniform1f(program.uniform("normal_scale"), material.normal_scale);
     gl_.Uniform1f(program.uniform("occlusion_strength"), material.occlusion_strength);
     gl_.Uniform1f(program.uniform("alpha_cutoff"), material.alpha_cutoff);
+    gl_.Uniform3fv(program.uniform("reflectance"), 1, glm::value_ptr(material.reflectance));
     gl_.Uniform1f(program.uniform("coat"), material.coat);
     gl_.Uniform1f(program.uniform("coat_roughness"), material.coat_roughness);
     gl_.Uniform1f(program.uniform("anisotropy"), material.anisotropy);

@@ -14,6 +14,7 @@ namespace {
 // The lights of the scene, and their sum at a point.
 constexpr const char* kLighting = R"(
 uniform vec3 eye;
+uniform vec3 reflectance;
 uniform vec3 sky;
 uniform vec3 ground;
 #if LIGHTS > 0
@@ -118,7 +119,7 @@ flat out float order_of_samples;
 void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
 #ifdef PER_VERTEX
-    ShadedPoint point = point_at(position, normal, mirror_of(vec3(0.0), 0.0), roughness, ambient_occlusion);
+    ShadedPoint point = point_at(position, normal, reflectance, roughness, ambient_occlusion);
 #ifdef ANISOTROPIC
     point.along = rough_along(normal, tangent.xyz, tangent.w, cos(anisotropy_turn), sin(anisotropy_turn));
 #endif
@@ -332,7 +333,7 @@ void main() {
 #ifdef SHADOW
     visible = visibility(normal);
 #endif
-    ShadedPoint point = point_at(world_position, normal, mirror_of(base.rgb, metal), rough,
+    ShadedPoint point = point_at(world_position, normal, mirror_of(base.rgb, metal, reflectance), rough,
                                  ambient_occlusion);
 #ifdef ANISOTROPIC
     vec2 turn = vec2(cos(anisotropy_turn), sin(anisotropy_turn));

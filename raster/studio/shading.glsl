@@ -50,12 +50,19 @@ SHARED vec3 reflected_on(vec3 mirror, float rough) {
     return 1.0f + mirror * (1.0f / (1.0f - 0.55f * rough) - 1.0f);
 }
 
+// Reflectance at grazing angles: all, but less where so little is mirrored straight on that the surface must be
+// occluded in itself. Lagarde and de Rousiers, "Moving Frostbite to Physically Based Rendering", 2014.
+SHARED float mirrored_at_grazing(vec3 mirror) {
+    return min((mirror.x + mirror.y + mirror.z) * (50.0f / 3.0f), 1.0f);
+}
+
 // The share of uniform light from everywhere that a rough surface mirrors.
 // Karis, "Physically Based Shading on Mobile", 2014: the fit of the split sum; and what is reflected on.
 SHARED vec3 mirrored_ambient(vec3 mirror, float rough, float facing) {
     vec4 r = rough * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
     float a = min(r.x * r.x, exp2(-9.28f * facing)) * r.x + r.y;
-    return (mirror * (-1.04f * a + r.z) + (1.04f * a + r.w)) * reflected_on(mirror, rough);
+    float grazing = mirrored_at_grazing(mirror);
+    return (mirror * (-1.04f * a + r.z) + grazing * (1.04f * a + r.w)) * reflected_on(mirror, rough);
 }
 
 // What the coat mirrors of uniform light from everywhere; 4 % straight on, as water, tears and oil do.
@@ -144,7 +151,7 @@ SHARED Lit light_from(ShadedPoint point, Illuminant light, float arrives) {
     float aligned = max(dot(point.normal, half_way), 0.0f);
     float grazing = 1.0f - max(dot(point.towards_eye, half_way), 0.0f);
     float grazing5 = grazing * grazing * (grazing * grazing) * grazing;
-    vec3 fresnel = point.mirror + (1.0f - point.mirror) * grazing5;
+    vec3 fresnel = point.mirror + (mirrored_at_grazing(point.mirror) - point.mirror) * grazing5;
     float coated = point.coat * (0.04f + 0.96f * grazing5);
     float softness = light.wrap + light.size;
     vec3 soft_faced = vec3(softened(cosine, softness + point.scatter.x), softened(cosine, softness + point.scatter.y),
@@ -173,9 +180,9 @@ SHARED Lit sum_of(Lit a, Lit b) {
     return lit;
 }
 
-// Reflectance straight on of a surface of this base colour: 4 % of what is no metal, the colour of what is.
-SHARED vec3 mirror_of(vec3 base, float metal) {
-    return mix(vec3(0.04f), base, metal);
+// Reflectance straight on of a surface of this base colour: `reflectance` of what is no metal, the colour of what is.
+SHARED vec3 mirror_of(vec3 base, float metal, vec3 reflectance) {
+    return mix(reflectance, base, metal);
 }
 
 // What the eye sees of a lit surface that also glows by itself.

@@ -73,7 +73,7 @@ void LightVertices(const TileSurface& surface, const TileLights& lights,
                    std::span<const std::uint32_t> vertices) {
     const SurfaceFeatures& features = surface.lit->features;
     const Material& material = surface.lit->material;
-    const vec3 mirror = mirror_of(vec3(0.0f), 0.0f);
+    const vec3 mirror(material.reflectance);
     const auto step = static_cast<std::size_t>(lanes());
     for (std::size_t i = 0; i < vertices.size(); i += step) {
         const WideVertices some{vertices.subspan(i, std::min(step, vertices.size() - i))};
@@ -269,8 +269,7 @@ inline vec3 lit_at_pixels(const TileSurface& surface, const TileLights& lights, 
         ambient_occlusion *= Float(1.0f) + Float(material.occlusion_strength) *
                                                (image_at(surface.occlusion, items, i).x - Float(1.0f));
     const Float visible = features.shadow ? visible_at(surface, lights, items, i, normal) : Float(1.0f);
-    ShadedPoint point = point_at(lights, material, load3(items.position, i), normal, mirror_of(base, metal),
-                                 rough, ambient_occlusion);
+    ShadedPoint point = point_at(lights, material, load3(items.position, i), normal, mirror_of(base, metal, vec3(material.reflectance)), rough, ambient_occlusion);
     if (features.anisotropic) set_anisotropy(point, surface, items, i);
     return seen(base, metal, light_on(lights, features, point, visible), glow);
 }

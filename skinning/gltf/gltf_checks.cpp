@@ -120,11 +120,16 @@ void check_materials(const GltfFile& file) {
         check_list(file, material, label, "emissiveFactor", 3, kShare);
         check_factor(file, material, label, "alphaCutoff", {.least = 0});
         const Json extensions = material.value("extensions", Json::object());
-        if (extensions.contains("KHR_materials_anisotropy")) {
-            const Json& anisotropy = extensions["KHR_materials_anisotropy"];
-            check_factor(file, anisotropy, label, "anisotropyStrength", kShare);
-            check_factor(file, anisotropy, label, "anisotropyRotation", {});
-        }
+        const auto extension = [&](const char* name) {
+            return extensions.contains(name) ? extensions[name] : Json::object();
+        };
+        const Json anisotropy = extension("KHR_materials_anisotropy");
+        check_factor(file, anisotropy, label, "anisotropyStrength", kShare);
+        check_factor(file, anisotropy, label, "anisotropyRotation", {});
+        const Json specular = extension("KHR_materials_specular");
+        check_factor(file, specular, label, "specularFactor", kShare);
+        check_list(file, specular, label, "specularColorFactor", 3, {.least = 0});
+        check_factor(file, extension("KHR_materials_ior"), label, "ior", {.least = 0});
         check_one_of(file, material, label, "alphaMode", {"OPAQUE", "MASK", "BLEND"});
         check_textures(file, material, label);
     });

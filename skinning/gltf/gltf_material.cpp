@@ -20,9 +20,15 @@ namespace {
 constexpr long long kLongestSide = 8192;  // [px]
 constexpr const char* kTextureTransform = "KHR_texture_transform";
 constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
-constexpr std::array<std::string_view, 5> kReadExtensions = {
-    kAnisotropy, "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
-    "KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit"};
+constexpr const char* kIor = "KHR_materials_ior";
+constexpr const char* kSpecular = "KHR_materials_specular";
+constexpr std::array<std::string_view, 7> kReadExtensions = {kAnisotropy,
+                                                             kIor,
+                                                             kSpecular,
+                                                             "KHR_materials_clearcoat",
+                                                             "KHR_materials_emissive_strength",
+                                                             "KHR_materials_pbrSpecularGlossiness",
+                                                             "KHR_materials_unlit"};
 
 struct Size {
     long long width = 0;
@@ -237,6 +243,23 @@ void MaterialReader::add_specular_glossiness(const tinygltf::Value& extension, M
     base = slot_of(extension.Get("diffuseTexture"));
 }
 
+// What a surface that is no metal mirrors straight on, by its index of refraction (1.5: 4 %) and its specular factors.
+// An index of 0 stands for infinity, as in old files of specular colours.
+Vec3 reflectance_in(const tinygltf::ExtensionMap& extensions) {
+    Vec3 reflectance(0.04f);
+    const auto ior = extensions.find(kIor);
+    if (ior != extensions.end()) {
+        const float index = number_in(ior->second, "ior", 1.5);
+        reflectance = Vec3(index > 0 ? (index - 1) * (index - 1) / ((index + 1) * (index + 1)) : 1);
+    }
+    const auto specular = extensions.find(kSpecular);
+    if (specular != extensions.end()) {
+        const Vec3 colour(colour_in(specular->second, "specularColorFactor"));
+        reflectance = min(reflectance * colour, Vec3(1)) * number_in(specular->second, "specularFactor", 1);
+    }
+    return reflectance;
+}
+
 Material material_without_textures(const tinygltf::Material& source) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     Material material;
@@ -252,6 +275,7 @@ Material material_without_textures(const tinygltf::Material& source) {
     material.unlit = source.extensions.contains("KHR_materials_unlit");
     if (source.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
     if (source.alphaMode == "BLEND") material.alpha_mode = AlphaMode::blend;
+    material.reflectance = reflectance_in(source.extensions);
     const auto coat = source.extensions.find("KHR_materials_clearcoat");
     if (coat != source.extensions.end()) {
         material.coat = std::clamp(number_in(coat->second, "clearcoatFactor", 0), 0.0f, 1.0f);
@@ -284,6 +308,8 @@ void MaterialReader::add(const tinygltf::Material& source) {
                                                   : format("material \"{}\"", source.name);
     for (const auto& [extension, value] : source.extensions) {
         if (std::ranges::find(kReadExtensions, extension) == kReadExtensions.end()) ++unread_[extension];
+        if (extension == kSpecular && (value.Has("specularTexture") || value.Has("specularColorTexture")))
+            ++unread_[format("a texture of {}", kSpecular)];
     }
     Material material = material_without_textures(source);
     Slot base = slot_of(pbr.baseColorTexture);

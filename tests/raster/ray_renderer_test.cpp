@@ -110,6 +110,19 @@ TEST(RayRenderer, ShowsTheLambertAndGgxValueOfAFacedLight) {
     EXPECT_EQ(at(frame, 32, 32), (Pixel{179, 179, 179}));
 }
 
+TEST(RayRenderer, MirrorsAsMuchAsItsMaterialSays) {
+    Scene scene = dark_scene();
+    scene.lights = {{.towards = {0, 0, 1}}};
+    const auto shown = [&](const Vec3& reflectance) {
+        const Material black{
+            .base_colour = {0, 0, 0, 1}, .metallic = 0, .roughness = 0.6f, .reflectance = reflectance};
+        return at(drawn(avatar_of({quad({})}, black), scene), 32, 32);
+    };
+    EXPECT_EQ(shown(Vec3(0)), (Pixel{0, 0, 0}));
+    EXPECT_GT(shown({0.3f, 0, 0}).r, shown({0.1f, 0, 0}).r + 20);
+    EXPECT_EQ(shown({0.3f, 0, 0}).g, 0);
+}
+
 Surface turned_away() {
     Surface away = quad({});
     std::swap(away.triangles[1], away.triangles[2]);

@@ -42,6 +42,18 @@ TEST(Shading, SendsBackAllLightFromEverywhere) {
     }
 }
 
+// As KHR_materials_specular has it for a factor of 0: all light goes into the surface, from wherever it is seen.
+TEST(Shading, OfASurfaceWithoutReflectanceIsLambert) {
+    ShadedPoint point = kFaced;
+    point.mirror = Vec3(0);
+    point.rough = 0.3f;
+    point.towards_eye = normalize(Vec3(0.995f, 0, 0.1f));
+    const Lit lit = light_from(point, {.towards = {0, 0, 1}, .radiance = Vec3(1), .wrap = 0}, 1);
+    EXPECT_EQ(lit.mirrored, Vec3(0));
+    EXPECT_EQ(lit.diffuse, Vec3(1));
+    EXPECT_EQ(light_from_everywhere(point, Vec3(1), Vec3(1)).mirrored, Vec3(0));
+}
+
 // A coat takes from what lies under it what it mirrors itself.
 TEST(Shading, OfACoatedSurfaceSendsBackAllLightFromEverywhere) {
     ShadedPoint point = kFaced;
@@ -240,6 +252,7 @@ TEST(Shading, InCppIsThatOfTheRasterizer) {
                      .radiance = light.radiance,
                      .angle = std::asin(light.size),
                      .wrap = light.wrap}};
+    const Vec3 reflectance(0.08f, 0.04f, 0.005f);
     Surface square = quad({});
     square.tangents.assign(square.positions.size(), Vec4(1, 0, 0, 1));
     for (const float metal : {0.0f, 0.5f, 1.0f}) {
@@ -248,6 +261,7 @@ TEST(Shading, InCppIsThatOfTheRasterizer) {
             const Material material{.base_colour = Vec4(base, 1),
                                     .metallic = metal,
                                     .roughness = rough,
+                                    .reflectance = reflectance,
                                     .coat = 1 - metal,
                                     .coat_roughness = 0.4f,
                                     .anisotropy = metal,
@@ -257,7 +271,7 @@ TEST(Shading, InCppIsThatOfTheRasterizer) {
             const Frame frame = make_gl_renderer(avatar, scene, {33, 33})->render(rest_mesh(avatar));
 
             ShadedPoint point = kFaced;
-            point.mirror = shading::mirror_of(base, metal);
+            point.mirror = shading::mirror_of(base, metal, reflectance);
             point.rough = rough;
             point.scatter = material.scatter;
             point.coat = material.coat;

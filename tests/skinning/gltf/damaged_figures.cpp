@@ -319,6 +319,16 @@ const Kind kMaterials[] = {
      [](auto& f, auto&) {
          f.json["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyStrength"] = 2;
      }},
+    {"specular above 1", "its specularFactor is 3, a number from 0 to 1",
+     [](auto& f, auto&) {
+         f.json["materials"][0]["extensions"]["KHR_materials_specular"]["specularFactor"] = 3;
+     }},
+    {"specular colour below 0", "a number of its specularColorFactor is -1",
+     [](auto& f, auto&) {
+         f.json["materials"][0]["extensions"]["KHR_materials_specular"]["specularColorFactor"] = {1, -1, 1};
+     }},
+    {"index of refraction below 0", "its ior is -1",
+     [](auto& f, auto&) { f.json["materials"][0]["extensions"]["KHR_materials_ior"]["ior"] = -1; }},
     {"alpha that is none", "its alphaMode is \"GLASS\", one of \"OPAQUE\", \"MASK\", \"BLEND\"",
      [](auto& f, auto&) { f.json["materials"][0]["alphaMode"] = "GLASS"; }},
     {"wrapping that is none", "its wrapS is 1, one of 33071",

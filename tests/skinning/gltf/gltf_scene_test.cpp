@@ -17,6 +17,7 @@ using ::testing::ElementsAre;
 using testing::GltfBuilder;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
+using ::testing::Not;
 using testing::skinned_file;
 using testing::TemporaryFolder;
 using testing::triangle_file;
@@ -424,17 +425,44 @@ TEST(ReadGltfScene, DecomposesMatrices) {
     expect_near(rest.rotation * Vec3(1, 0, 0), {0, 1, 0});
 }
 
+// Blender's index of refraction is 1.45. Factors lower what it gives, or raise it to 1 at most.
+TEST(ReadGltfScene, ReadsWhatIsMirroredStraightOn) {
+    GltfBuilder file = triangle_file();
+    const auto with = [](const Json& ior, const Json& specular) {
+        return Json{{"extensions", {{"KHR_materials_ior", ior}, {"KHR_materials_specular", specular}}}};
+    };
+    const Json none = Json::object();
+    file.json["materials"] = {none, with({{"ior", 1.45}}, none), with(none, {{"specularFactor", 0}}),
+                              with(none, {{"specularFactor", 0.5}, {"specularColorFactor", {1, 2, 0.5}}}),
+                              with({{"ior", 0}}, {{"specularColorFactor", {0.5, 1, 3}}})};
+    const Avatar scene = read(file);
+    const auto near = [&](std::size_t material, const Vec3& reflectance) {
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(scene.materials[material].reflectance[c], reflectance[c], 1e-6f) << material;
+    };
+    near(0, Vec3(0.04f));
+    near(1, Vec3(0.03373594f));
+    near(2, Vec3(0));
+    near(3, {0.02f, 0.04f, 0.01f});
+    near(4, {0.5f, 1, 1});
+    EXPECT_THAT(scene.humanoid_notes, Not(Contains(HasSubstr("is not read"))));
+}
+
 TEST(ReadGltfScene, NotesWhatItLeavesOutOfMaterials) {
     GltfBuilder file = triangle_file();
-    const Json dull = {{"extensions", {{"KHR_materials_specular", {{"specularFactor", 0}}}}}};
+    const Json dull = {{"extensions",
+                        {{"KHR_materials_sheen", Json::object()},
+                         {"KHR_materials_specular", {{"specularTexture", {{"index", 0}}}}}}}};
     const Json glass = {
         {"extensions",
          {{"KHR_materials_transmission", Json::object()}, {"KHR_materials_unlit", Json::object()}}}};
     file.json["materials"] = {dull, glass, dull};
     EXPECT_THAT(
         read(file).humanoid_notes,
-        IsSupersetOf({"KHR_materials_specular of 2 materials is not read; what it changes is left out",
-                      "KHR_materials_transmission of 1 material is not read; what it changes is left out"}));
+        IsSupersetOf(
+            {"KHR_materials_sheen of 2 materials is not read; what it changes is left out",
+             "a texture of KHR_materials_specular of 2 materials is not read; what it changes is left out",
+             "KHR_materials_transmission of 1 material is not read; what it changes is left out"}));
 }
 
 // A mirrored matrix keeps its mirror in the scale.
