@@ -12,7 +12,7 @@ namespace chironomia {
 // Number Generation", 2014), XSH-RR output of a 64-bit linear congruential state.
 class Random {
   public:
-    explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
+    explicit Random(std::uint64_t seed, std::uint64_t stream = 0);  // streams of one seed are independent
 
     std::uint32_t next();                    // all 32 bits uniform
     std::uint32_t below(std::uint32_t end);  // uniform in [0, end), end > 0, without modulo bias

@@ -44,7 +44,9 @@ struct Composition {
 // What the design of a plan is drawn from.
 DesignShape shape_of(const Plan& plan, std::uint64_t seed);
 
-// Throws Error, naming the plan, if some page would never be shown.
+// Each sheet has its checks before random trials, each in its own part of the sheet; where the plan asks for early
+// ones, the first or all before one of the first trials. Throws Error, naming the plan, if some page would never be
+// shown.
 Composition compose(const Plan& plan, std::uint64_t seed);
 
 }  // namespace chironomia::study
