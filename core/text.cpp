@@ -105,6 +105,9 @@ std::optional<std::string> nearest_name(std::string_view typo, const std::vector
     std::optional<std::string> nearest;
     size_t least = std::max<size_t>(1, typo.size() / 3) + 1;
     for (const std::string& candidate : candidates) {
+        const size_t sizes_differ =
+            std::max(typo.size(), candidate.size()) - std::min(typo.size(), candidate.size());
+        if (sizes_differ >= least) continue;  // and the distance is no less
         const size_t distance = edit_distance(to_lower(typo), to_lower(candidate));
         if (distance < least) {
             least = distance;
