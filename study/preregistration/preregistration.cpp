@@ -8,6 +8,7 @@
 #include "core/version.h"
 #include "study/design/balance.h"
 #include "study/plan/presets.h"
+#include "study/record/answer_values.h"
 
 namespace chironomia::study {
 namespace {
@@ -279,6 +280,9 @@ Sentences exclusion(const Source& from) {
                    rules.failed_checks));
         says.push_back(format("Lenient rule: {} or more failed checks do. Results are given by both.",
                               rules.lenient_failed_checks));
+        const auto is_slider = [](const Question& one) { return check_tolerance(one) > 0; };
+        if (std::any_of(from.plan.questions.begin(), from.plan.questions.end(), is_slider))
+            says.push_back("A slider may be up to 3 % of its width beside the value that a check asks for.");
     } else {
         says.push_back(
             "There are no attention checks. By the strict rule those who did not finish are excluded.");

@@ -1,6 +1,7 @@
 #include "study/record/answer_values.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <set>
 #include <string>
@@ -140,11 +141,18 @@ Json to_shown(const Json& value, const Question& question, const std::vector<std
     return to_places(value, question, shown_at, names_a_side);
 }
 
-bool is_as_expected(const Json& value, const Json& expected) {
+int check_tolerance(const Question& question) {
+    if (question.kind != QuestionKind::slider) return 0;
+    return 3 * (question.most.value_or(100) - question.least.value_or(0)) / 100;
+}
+
+bool is_as_expected(const Json& value, const Json& expected, const Question& question) {
+    if (expected.is_number_integer() && value.is_number_integer())
+        return std::abs(value.get<int>() - expected.get<int>()) <= check_tolerance(question);
     if (!expected.is_array() || !value.is_array()) return value == expected;
     if (value.size() != expected.size()) return false;
     for (std::size_t i = 0; i < value.size(); ++i) {
-        if (!expected[i].is_null() && expected[i] != value[i]) return false;
+        if (!expected[i].is_null() && !is_as_expected(value[i], expected[i], question)) return false;
     }
     return true;
 }

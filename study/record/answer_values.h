@@ -32,7 +32,11 @@ Json to_places(const Json& value, const Question& question, const std::vector<st
 Json to_shown(const Json& value, const Question& question, const std::vector<std::size_t>& order,
               bool names_a_side);
 
+// How far from the expected value the answer to an attention check may be: on a slider from 0 to 100 by 3, as HEMVIP
+// allows (lib/webmushra/pages/VideoPage.js), on others by 3 % of their width; else by nothing.
+int check_tolerance(const Question& question);
+
 // Whether the value, as to_places() gives it, is the expected one. Null in an expected array means any value.
-bool is_as_expected(const Json& value, const Json& expected);
+bool is_as_expected(const Json& value, const Json& expected, const Question& question);
 
 }  // namespace chironomia::study

@@ -27,11 +27,13 @@ std::optional<FailedCheck> missed_answer(const StudyKey& key, const PagePass& pa
         const Json given = answer.values.value(question.id, Json());
         const Json in_places =
             to_places(given, question, all_places(answer, page), key.layout == Layout::triplet);
-        if (is_as_expected(in_places, expected)) continue;
-        return FailedCheck{.page = page.token,
-                           .question = question.id,
-                           .expected = expected.dump(),
-                           .given = given.is_null() ? "nothing" : in_places.dump()};
+        if (is_as_expected(in_places, expected, question)) continue;
+        const int tolerance = check_tolerance(question);
+        return FailedCheck{
+            .page = page.token,
+            .question = question.id,
+            .expected = expected.dump() + (tolerance > 0 ? format(" give or take {}", tolerance) : ""),
+            .given = given.is_null() ? "nothing" : in_places.dump()};
     }
     return std::nullopt;
 }

@@ -110,6 +110,7 @@ TEST_F(Preregistered, SaysWhatThePlanSays) {
     EXPECT_THAT(item("Sample size")["fixed"].dump(), HasSubstr("12 participants"));
     EXPECT_THAT(item("Data exclusion")["fixed"].dump(), HasSubstr("3 or more failed checks"));
     EXPECT_THAT(item("Data exclusion")["fixed"].dump(), HasSubstr("less than 2.5 s"));
+    EXPECT_THAT(item("Data exclusion")["fixed"].dump(), Not(HasSubstr("slider")));
     EXPECT_EQ(item("Stopping rule")["said"], Json::array({"In May."}));
     // The power is the one that --power finds.
     const Json power = data()["power"];
@@ -127,6 +128,22 @@ TEST_F(Preregistered, SaysWhatThePlanSays) {
     const std::string first = page();
     ASSERT_EQ(preregister(data()["plan"]).exit_code, 0);
     EXPECT_EQ(page(), first);
+}
+
+TEST_F(Preregistered, SaysHowNearASliderOfACheckMustBe) {
+    Json plan = sample_plan();
+    plan["layout"] = "parallel";
+    plan["checks"] = {{"count", 1}, {"kinds", {"text"}}};
+    plan["questions"] = {{{"id", "s"},
+                          {"kind", "slider"},
+                          {"text", "How good?"},
+                          {"least", 0},
+                          {"most", 100},
+                          {"labels", {"good", "bad"}},
+                          {"each", true}}};
+    const Outcome outcome = preregister(plan);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(item("Data exclusion")["fixed"].dump(), HasSubstr("A slider may be up to 3 % of its width"));
 }
 
 TEST_F(Preregistered, HasTheSameBytesForAnySeedAndNoneInIt) {

@@ -98,12 +98,26 @@ TEST(ToShown, IsTheOtherWayRound) {
 }
 
 TEST(IsAsExpected, TakesAnyValueWhereNothingIsExpected) {
-    EXPECT_TRUE(is_as_expected(4, 4));
-    EXPECT_FALSE(is_as_expected(3, 4));
-    EXPECT_TRUE(is_as_expected(Json::array({12, 75}), Json::array({nullptr, 75})));
-    EXPECT_FALSE(is_as_expected(Json::array({75, 12}), Json::array({nullptr, 75})));
-    EXPECT_FALSE(is_as_expected(Json::array({75}), Json::array({nullptr, 75})));
-    EXPECT_FALSE(is_as_expected(nullptr, Json::array({nullptr, 75})));
+    const Question rating = {.id = "r", .kind = QuestionKind::rating, .each = true, .points = 5};
+    EXPECT_TRUE(is_as_expected(4, 4, rating));
+    EXPECT_FALSE(is_as_expected(3, 4, rating));
+    EXPECT_TRUE(is_as_expected(Json::array({1, 4}), Json::array({nullptr, 4}), rating));
+    EXPECT_FALSE(is_as_expected(Json::array({4, 1}), Json::array({nullptr, 4}), rating));
+    EXPECT_FALSE(is_as_expected(Json::array({4}), Json::array({nullptr, 4}), rating));
+    EXPECT_FALSE(is_as_expected(nullptr, Json::array({nullptr, 4}), rating));
+}
+
+TEST(IsAsExpected, TakesValuesOfASliderNearTheExpectedOne) {
+    Question slider{.id = "s", .kind = QuestionKind::slider, .least = 0, .most = 100};
+    EXPECT_TRUE(is_as_expected(72, 75, slider));
+    EXPECT_TRUE(is_as_expected(78, 75, slider));
+    EXPECT_FALSE(is_as_expected(71, 75, slider));
+    EXPECT_FALSE(is_as_expected(79, 75, slider));
+    EXPECT_TRUE(is_as_expected(Json::array({3, 77}), Json::array({nullptr, 75}), slider));
+    EXPECT_FALSE(is_as_expected(Json::array({75, nullptr}), Json::array({nullptr, 75}), slider));
+    slider.least = -5;
+    slider.most = 5;  // eleven steps can be set exactly
+    EXPECT_FALSE(is_as_expected(2, 3, slider));
 }
 
 TEST(StepsTowardsLeft, CountFromEqualOrFromBetweenTheTwoInTheMiddle) {

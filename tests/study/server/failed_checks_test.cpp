@@ -49,7 +49,15 @@ TEST(FailedChecks, CompareWithWhatWasShown) {
 TEST(FailedChecks, TakeAnyValueOfAVideoWithoutAnInstruction) {
     const TwoPages study;
     EXPECT_THAT(study.fails({answer(0, 1, {{"each", {3, 75}}})}), IsEmpty());
-    EXPECT_THAT(study.fails({answer(0, 1, {{"each", {75, 3}}})}), ElementsAre("check: [3,75] for [75,null]"));
+    EXPECT_THAT(study.fails({answer(0, 1, {{"each", {75, 3}}})}),
+                ElementsAre("check: [3,75] for [75,null] give or take 3"));
+}
+
+TEST(FailedChecks, TakeSlidersThatAreNearTheInstruction) {
+    const TwoPages study;
+    EXPECT_THAT(study.fails({answer(0, 1, {{"each", {3, 78}}})}), IsEmpty());
+    EXPECT_THAT(study.fails({answer(0, 1, {{"each", {3, 71}}})}),
+                ElementsAre("check: [71,3] for [75,null] give or take 3"));
 }
 
 TEST(FailedChecks, LetTrialsBe) {
