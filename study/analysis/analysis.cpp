@@ -14,6 +14,7 @@
 #include "study/analysis/exclusion.h"
 #include "study/analysis/foreign.h"
 #include "study/analysis/plots.h"
+#include "study/analysis/questionnaire_tables.h"
 #include "study/analysis/result_tables.h"
 #include "study/analysis/simulated_rater.h"
 #include "study/record/study_folder.h"
@@ -34,6 +35,12 @@ Results results_by(const Dataset& data, Strictness strictness, const Resampling&
     std::vector<std::string> reasons = reasons_to_exclude(data, strictness);
     const Dataset counted = without_excluded(data, reasons);
     return compute_results(counted, std::move(reasons), resampling);
+}
+
+std::vector<Table> all_tables(const Analysis& analysis, const Results& results) {
+    std::vector<Table> tables = tables_of_questionnaire(analysis.data, results.excluded);
+    for (Table& table : tables_of(analysis.data, results)) tables.push_back(std::move(table));
+    return tables;
 }
 
 // Columns before those of every table: which rule, and that nobody was there.
@@ -57,7 +64,7 @@ using Files = std::map<fs::path, std::string>;
 void add_results(const Analysis& analysis, Files& files) {
     const std::vector<std::string> columns = columns_before(analysis, true);
     const auto add = [&](const Results& results, const std::string& rule) {
-        for (const Table& table : tables_of(analysis.data, results)) {
+        for (const Table& table : all_tables(analysis, results)) {
             std::string& csv = files[table.id + ".csv"];
             if (csv.empty()) csv = csv_header(table, columns);
             csv += csv_rows(table, values_before(analysis, rule));
@@ -100,7 +107,7 @@ std::string latex_of(const Analysis& analysis) {
                                escape_latex(analysis.title));
     const std::string simulated = analysis.data.simulated ? format("{}: ", kSimulatedRaters) : "";
     const auto add = [&](const Results& results, const std::string& rule) {
-        for (Table table : tables_of(analysis.data, results)) {
+        for (Table table : all_tables(analysis, results)) {
             table.title =
                 format("{}{} ({} exclusion, {} participants)", simulated, table.title, rule, results.counted);
             latex += "\n" + to_latex(table, format("{}-{}", table.id, rule));
@@ -150,7 +157,7 @@ void write_files(const Files& files, const fs::path& folder) {
 
 Json json_of(const Analysis& analysis, const Results& results) {
     Json json = {{"participants", results.counted}};
-    for (const Table& table : tables_of(analysis.data, results)) json[table.id] = to_json(table);
+    for (const Table& table : all_tables(analysis, results)) json[table.id] = to_json(table);
     return json;
 }
 
@@ -220,10 +227,17 @@ std::string to_text(const Analysis& analysis) {
         if (!analysis.strict.excluded[i].empty())
             text += format("  {}: {}\n", analysis.data.raters[i].name, analysis.strict.excluded[i]);
     }
-    for (const Table& table : tables_of(analysis.data, analysis.strict)) {
-        static const std::set<std::string> kMain = {
-            "scores",        "paired_t",       "preferences_of_participants", "preferences", "elo", "choices",
-            "right_answers", "right_published"};
+    for (const Table& table : all_tables(analysis, analysis.strict)) {
+        static const std::set<std::string> kMain = {"scores",
+                                                    "paired_t",
+                                                    "preferences_of_participants",
+                                                    "preferences",
+                                                    "elo",
+                                                    "choices",
+                                                    "right_answers",
+                                                    "right_published",
+                                                    "questionnaire_numbers",
+                                                    "questionnaire_choices"};
         if (kMain.contains(table.id)) text += format("\n{} (strict rule)\n{}", table.title, to_text(table));
     }
     return text;
@@ -237,6 +251,9 @@ void write_analysis(const Analysis& analysis, const fs::path& folder) {
                files);
     add_single(analysis, table_of_answers(analysis.data, analysis.strict.excluded, analysis.lenient.excluded),
                files);
+    const Table at_end =
+        table_of_questionnaire(analysis.data, analysis.strict.excluded, analysis.lenient.excluded);
+    if (!at_end.rows.empty()) add_single(analysis, at_end, files);
     if (!analysis.strict.votes.empty()) {
         const Table battles = table_of_battles(without_excluded(analysis.data, analysis.strict.excluded));
         files["battles.csv"] = csv_header(battles, {}) + csv_rows(battles, {});

@@ -8,6 +8,7 @@
 #include "core/version.h"
 #include "study/analysis/dataset_tables.h"
 #include "study/analysis/plots.h"
+#include "study/analysis/questionnaire_tables.h"
 #include "study/analysis/result_tables.h"
 #include "study/analysis/simulated_rater.h"
 #include "study/html/html.h"
@@ -137,6 +138,8 @@ std::string participants_html(const Analysis& analysis) {
     } else {
         html += format("<h3>Excluded by the strict rule</h3>\n{}", to_html(excluded));
     }
+    for (const Table& table : tables_of_questionnaire(analysis.data, analysis.strict.excluded))
+        html += table_html(table);
     return html + format("<details><summary>All {}</summary>\n{}</details>\n",
                          counted(all.rows.size(), "participant"), to_html(all));
 }

@@ -125,7 +125,10 @@ Respondent read_respondent(const JsonValue& value, const fs::path& file, const S
                            .sheet = static_cast<std::size_t>(value.at("sheet").integer(0, kMost))};
     if (const auto simulated = value.find("simulated")) participant.simulated = simulated->flag();
     participant.finished = !value.at("finished").json().is_null();
-    if (const auto asked = value.find("questionnaire")) participant.questionnaire = asked->json();
+    if (const auto asked = value.find("questionnaire"); asked && !asked->json().is_null()) {
+        if (!asked->json().is_object()) asked->refuse(format("is {}, an object is needed", asked->shown()));
+        participant.questionnaire = asked->json();
+    }
     std::set<std::pair<std::size_t, std::size_t>> passes;
     for (const JsonValue& item : value.at("answers").items(0)) {
         participant.answers.push_back(read_page_answer(item, key));

@@ -18,7 +18,7 @@ struct Respondent {
     std::size_t sheet = 0;
     bool simulated = false;
     bool finished = false;
-    Json questionnaire;
+    Json questionnaire = Json::object();  // {question id: value}
     std::vector<PageAnswer> answers;
 };
 

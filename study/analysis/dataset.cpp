@@ -366,6 +366,20 @@ void note_uncounted(Dataset& data, const Uncounted& uncounted) {
         data.notes.push_back(format("{} answers on practice pages are not counted.", uncounted.practised));
 }
 
+void check_questionnaire(const StudyPages& pages, const Respondent& participant) {
+    for (const auto& [id, value] : participant.questionnaire.items()) {
+        const auto asked = std::find_if(pages.questionnaire.begin(), pages.questionnaire.end(),
+                                        [&, &name = id](const Question& one) { return one.id == name; });
+        const std::string fault =
+            asked == pages.questionnaire.end()
+                ? "the study asks no such question at its end; give the answers of this study"
+                : fault_of_answer(*asked, value, 1);
+        if (!fault.empty())
+            throw Error(format("{}: questionnaire of participant {}: {} is {}: {}", participant.file,
+                               participant.name, id, value.dump(), fault));
+    }
+}
+
 }  // namespace
 
 std::string label_of(const Dataset& data, std::vector<std::size_t> conditions) {
@@ -380,15 +394,18 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                  .seed = key.seed,
                  .conditions = key.conditions,
                  .questions = key.questions,
+                 .questionnaire = pages.questionnaire,
                  .rules = key.exclusions};
     for (const KeyCondition& condition : key.conditions) data.cells.push_back(condition.name);
     add_cells_of_options(data, key);
     Uncounted uncounted;
     for (const Respondent& participant : participants) {
+        check_questionnaire(pages, participant);
         data.simulated = data.simulated || participant.simulated;
         data.raters.push_back({.name = participant.name,
                                .file = participant.file,
-                               .finished = has_finished(data, pages, participant)});
+                               .finished = has_finished(data, pages, participant),
+                               .questionnaire = participant.questionnaire});
         join_participant(data, {key, pages, participant}, uncounted);
     }
     note_uncounted(data, uncounted);

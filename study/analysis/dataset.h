@@ -78,6 +78,7 @@ struct Rater {
     std::size_t skipped = 0;
     double median_seconds = 0;
     std::vector<FailedCheck> failed;
+    Json questionnaire = Json::object();  // {question id: value}; an answer that was left open may be null
 };
 
 struct Dataset {
@@ -87,7 +88,8 @@ struct Dataset {
     std::uint64_t seed = 42;
     std::vector<KeyCondition> conditions;
     std::vector<Question> questions;
-    std::vector<std::string> cells;  // labels of scores; the first are the conditions
+    std::vector<Question> questionnaire;  // asked at the end
+    std::vector<std::string> cells;       // labels of scores; the first are the conditions
     // Of cells about a ranked option its text: only scores of the same option are compared.
     std::map<std::size_t, std::string> option_of_cell;
     std::vector<std::string> units;  // ids of pages and videos
@@ -108,7 +110,8 @@ std::string label_of(const Dataset& data, std::vector<std::size_t> conditions);
 // key: where that is A the score is reversed, so that the highest score always means "like the first".
 // `pages`, of the same build, say which questions a pass asks: a note counts those that were left out. They say what
 // a sheet shows: who lacks answers of it has not finished, and a note says so.
-// Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist.
+// Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist, or an answer at the end fits
+// no question.
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                      const std::vector<Respondent>& participants);
 

@@ -84,6 +84,50 @@ TEST(AnalyseCli, CountsNobodyWithoutTheAnswersToAttentionChecks) {
     EXPECT_THAT(outcome.out, HasSubstr("  simulated-1: did not finish\n"));
 }
 
+// Of twelve simulated raters one fails the checks, and who left a question open is not counted there.
+TEST(AnalyseCli, ReportsWhatWasAnsweredAtTheEnd) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    Json pages = read_json(folder / "study/public/pages.json");
+    pages["questionnaire"] = Json::parse(R"([
+        {"id": "age", "kind": "number", "text": "Your age", "least": 18, "optional": true},
+        {"id": "hand", "kind": "choice", "text": "Your hand",
+         "options": [{"id": "left", "text": "the left"}, {"id": "right", "text": "the right"}]},
+        {"id": "more", "kind": "text", "text": "More?", "optional": true}])");
+    write_json(folder / "study/public/pages.json", pages);
+    Json answers = read_json(folder / "answers.json");
+    for (Json& one : answers) one["questionnaire"] = {{"age", nullptr}, {"hand", "right"}, {"more", nullptr}};
+    answers[0]["questionnaire"] = {{"age", 20}, {"hand", "left"}, {"more", "Thanks, all fine"}};
+    answers[1]["questionnaire"]["age"] = 40;
+    write_json(folder / "answers.json", answers);
+    const auto analyse = [&] {
+        return run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
+                               (folder / "answers.json").string(), "--samples", "200"});
+    };
+    const Outcome outcome = analyse();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto written = [&](const char* name) {
+        return read_text(folder / "study/private/analysis" / name);
+    };
+    EXPECT_THAT(written("questionnaire_numbers.csv"),
+                HasSubstr("SIMULATED RATERS,strict,age,2,30,14.142135623730951,30,20,40\n"));
+    EXPECT_THAT(written("questionnaire_choices.csv"),
+                HasSubstr("SIMULATED RATERS,strict,hand,left,the left,1,11,0.09090909090909091\n"));
+    EXPECT_THAT(written("questionnaire.csv"), HasSubstr("simulated-1,more,\"Thanks, all fine\",counted"));
+    EXPECT_THAT(written("report.html"), HasSubstr("Questions at the end: choices"));
+    answers[1]["questionnaire"]["age"] = 12;
+    write_json(folder / "answers.json", answers);
+    EXPECT_THAT(analyse().err,
+                HasSubstr("answers.json: questionnaire of participant simulated-2: age is 12: a number "
+                          "from 18 on is needed"));
+    answers[1]["questionnaire"] = {{"shoe", 43}};
+    write_json(folder / "answers.json", answers);
+    EXPECT_THAT(analyse().err, HasSubstr("shoe is 43: the study asks no such question at its end"));
+    answers[1]["questionnaire"] = 43;
+    write_json(folder / "answers.json", answers);
+    EXPECT_THAT(analyse().err, HasSubstr("questionnaire: is 43, an object is needed"));
+}
+
 TEST(AnalyseCli, PrintsJsonAndReadsItsOwnBattles) {
     const TemporaryFolder folder;
     ASSERT_EQ(rehearse(folder).exit_code, 0);
