@@ -83,7 +83,8 @@ Table paired_table(const TableSource& of) {
         .note =
             "Of the scores of participants who rated both; d is the mean difference in its standard "
             "deviations. Holm's p is adjusted for all pairs of the question. Takes participants as "
-            "independent and the mean of their differences as normal, as it is of many participants",
+            "independent and the mean of their differences as normal, as it is of many participants. A pair "
+            "about which all participants differ by the same has no t",
         .columns = columns_of_t(
             {{"question", "question"}, {"first", "first"}, {"second", "second"}, {"n", "n", Show::whole}})};
     table.columns.push_back({"p_holm", "p (Holm)", Show::p});

@@ -26,10 +26,11 @@ struct CellResult {
 struct CellPair {
     std::size_t first = 0;  // cell
     std::size_t second = 0;
-    std::optional<MeanTest> paired;  // of participants who rated both
+    std::size_t both = 0;            // participants who rated both
+    std::optional<MeanTest> paired;  // of those
     std::optional<MeanTest> welch;   // of all participants, as two independent groups
-    std::optional<RankTest> ranks;   // of participants who rated both
-    double paired_holm_p = 1;        // of `paired`, among all pairs of the question
+    std::optional<RankTest> ranks;   // of those who rated both
+    double paired_holm_p = 1;        // of `paired`, among all pairs of the question that somebody rated
     double ranks_holm_p = 1;         // of `ranks`, the same
 };
 
@@ -54,10 +55,11 @@ struct RaterVotes {
     std::size_t for_first = 0;  // participants with more wins of the first than losses
     std::size_t even = 0;
     std::size_t for_second = 0;
-    double share = 0;                  // mean share of the first: wins, and half of the ties, among all votes
-    std::optional<Interval> share_95;  // by Student's t, cut at 0 and 1; none of one participant
-    double p = 1;                      // sign_flip_test of wins less losses
-    double holm_p = 1;                 // among all pairs of the question
+    double share = 0;  // mean share of the first: wins, and half of the ties, among all votes
+    std::optional<Interval>
+        share_95;       // by Student's t, cut at 0 and 1; none of one participant, or where all have the same
+    double p = 1;       // sign_flip_test of wins less losses
+    double holm_p = 1;  // among all pairs of the question
 };
 
 // Votes between two conditions.

@@ -88,22 +88,23 @@ std::string option_of(const Dataset& data, std::size_t cell) {
 
 CellPair compare(const Means& first, const Means& second) {
     const Paired paired = pair_up(first, second);
-    return {.paired = paired_t(paired.first, paired.second),
+    return {.both = paired.first.size(),
+            .paired = paired_t(paired.first, paired.second),
             .welch = welch_t(values_of(first), values_of(second)),
             .ranks = wilcoxon_signed_rank(paired.first, paired.second)};
 }
 
-// Of those tests that could be made.
+// Pairs whose test could not be made, as all differences are the same, were to be tested too: they count with p = 1.
 template <typename Test>
 void adjust(std::vector<CellPair>& pairs, std::optional<Test> CellPair::*test, double CellPair::*holm_p) {
     std::vector<double> p;
     for (const CellPair& pair : pairs) {
-        if (pair.*test) p.push_back((pair.*test)->p);
+        if (pair.both > 0) p.push_back(pair.*test ? (pair.*test)->p : 1);
     }
     const std::vector<double> adjusted = adjust_holm(p);
     std::size_t next = 0;
     for (CellPair& pair : pairs) {
-        if (pair.*test) pair.*holm_p = adjusted[next++];
+        if (pair.both > 0) pair.*holm_p = adjusted[next++];
     }
 }
 

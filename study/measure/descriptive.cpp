@@ -14,6 +14,8 @@ std::optional<double> sd_of(std::span<const double> values, double mean) {
     if (values.size() < 2) return std::nullopt;
     double squares = 0;
     for (const double value : values) squares += (value - mean) * (value - mean);
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    if (*most - *least <= kRounding * std::max(std::abs(*least), std::abs(*most))) return 0;
     return std::sqrt(squares / static_cast<double>(values.size() - 1));
 }
 
@@ -46,7 +48,7 @@ Summary summarize(std::span<const double> values) {
                     .most = sorted.back(),
                     .median_95 = interval_of_median(sorted)};
     summary.sd = sd_of(values, summary.mean);
-    if (summary.sd) {
+    if (summary.sd && *summary.sd > 0) {
         const auto n = static_cast<double>(values.size());
         const double half = student_t_quantile(0.975, n - 1) * *summary.sd / std::sqrt(n);
         summary.mean_95 = Interval{summary.mean - half, summary.mean + half};

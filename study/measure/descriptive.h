@@ -15,14 +15,18 @@ struct Interval {
     double high = 0;
 };
 
+// Numbers that are as far apart as this share of the largest of them are the same: sums and means round their last digits.
+inline constexpr double kRounding = 1e-12;
+
 struct Summary {
     std::size_t n = 0;
     double mean = 0;
     double median = 0;
     double least = 0;
     double most = 0;
-    std::optional<double> sd;           // with n - 1; none of one number
-    std::optional<Interval> mean_95;    // by Student's t; none of one number
+    std::optional<double> sd;  // with n - 1; none of one number
+    std::optional<Interval>
+        mean_95;  // by Student's t; none of one number, or of numbers that are all the same
     std::optional<Interval> median_95;  // between order statistics; none of fewer than six numbers
 };
 

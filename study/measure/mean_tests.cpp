@@ -1,5 +1,6 @@
 #include "study/measure/mean_tests.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -19,9 +20,13 @@ std::optional<MeanTest> paired_t(std::span<const double> first, std::span<const 
     assert(first.size() == second.size());
     if (first.size() < 2) return std::nullopt;
     std::vector<double> differences;
-    for (std::size_t i = 0; i < first.size(); ++i) differences.push_back(first[i] - second[i]);
+    double largest = 0;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        differences.push_back(first[i] - second[i]);
+        largest = std::max({largest, std::abs(first[i]), std::abs(second[i])});
+    }
     const Summary summary = summarize(differences);
-    if (!(*summary.sd > 0)) return std::nullopt;
+    if (!(*summary.sd > kRounding * largest)) return std::nullopt;
     const auto n = static_cast<double>(summary.n);
     const double t = summary.mean / (*summary.sd / std::sqrt(n));
     return MeanTest{.n_first = summary.n,

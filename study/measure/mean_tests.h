@@ -22,7 +22,7 @@ struct MeanTest {
 };
 
 // t = mean(d) / (sd(d) / sqrt n) with n - 1 degrees of freedom, d the differences of the pairs; the effect is
-// mean(d) / sd(d). None of fewer than two pairs or where all differences are the same.
+// mean(d) / sd(d). None of fewer than two pairs or where all differences are the same but for rounding.
 std::optional<MeanTest> paired_t(std::span<const double> first, std::span<const double> second);
 
 // Welch's t of two groups that need not vary alike; the effect is over the root of the mean variance. None of

@@ -61,6 +61,23 @@ TEST(ComputeResults, ParticipantsAreTheUnitsOfScores) {
     EXPECT_EQ(results.agreement[0].intraclass[0].raters, 3u);
 }
 
+// Two conditions that everybody rates alike have no t, but were to be compared: Holm takes the least of three p thrice.
+TEST(ComputeResults, HolmCountsPairsWhoseTestCouldNotBeMade) {
+    Dataset data = two_raters();
+    data.conditions.push_back({"copy"});
+    data.cells.push_back("copy");
+    data.questions = {{.id = "natural", .kind = QuestionKind::rating, .points = 7}};
+    const double given[3][3] = {{2, 4, 6}, {1, 2, 4}, {1, 2, 4}};
+    for (std::size_t cell = 0; cell < 3; ++cell) {
+        for (std::size_t p = 0; p < 3; ++p)
+            data.scores.push_back({.participant = p, .cell = cell, .unit = cell, .value = given[cell][p]});
+    }
+    const ScoreResult score = results_of(data).scores.at(0);
+    ASSERT_EQ(score.pairs.size(), 3u);
+    EXPECT_FALSE(score.pairs[2].paired);
+    EXPECT_NEAR(score.pairs[0].paired_holm_p, 3 * score.pairs[0].paired->p, 1e-12);
+}
+
 // Anna is ranked by 1, 2 and 2 lower for ours than for the baseline, Ben higher by as much: t is 5 and -5, and Holm
 // takes the p of two pairs twice.
 TEST(ComputeResults, ComparesARankedOptionWithItselfAlone) {

@@ -29,6 +29,12 @@ TEST(Summarize, OneNumberHasNoSpreadAndNoInterval) {
     EXPECT_FALSE(summary.sd || summary.mean_95 || summary.median_95);
 }
 
+TEST(Summarize, NumbersThatAreTheSameButForRoundingSayNothingOfOthers) {
+    const Summary summary = summarize(std::vector<double>{0.1 + 0.2, 0.3, 0.3});
+    EXPECT_EQ(summary.sd, 0);
+    EXPECT_FALSE(summary.mean_95);
+}
+
 // Six numbers are all below or all above the median with chance 2 / 64 < 5 %, five with 2 / 32 > 5 %.
 TEST(Summarize, TheIntervalOfAMedianNeedsSixNumbers) {
     EXPECT_FALSE(summarize(std::vector<double>{1, 2, 3, 4, 5}).median_95);

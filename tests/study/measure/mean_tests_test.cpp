@@ -34,6 +34,9 @@ TEST(PairedT, AgreesWithScipy) {
 TEST(PairedT, NeedsDifferencesThatVary) {
     EXPECT_FALSE(paired_t(std::vector<double>{1}, std::vector<double>{2}));
     EXPECT_FALSE(paired_t(std::vector<double>{1, 2, 3}, std::vector<double>{2, 3, 4}));
+    // Each differs by a third or by nothing, but for the last digit.
+    EXPECT_FALSE(paired_t(std::vector<double>{10.0 / 3, 11.0 / 3}, std::vector<double>{9.0 / 3, 10.0 / 3}));
+    EXPECT_FALSE(paired_t(std::vector<double>{0.1 + 0.2, 4}, std::vector<double>{0.3, 4}));
 }
 
 TEST(WelchT, AgreesWithScipy) {
@@ -94,6 +97,7 @@ TEST(OneWayAnova, NeedsGroupsThatVary) {
     EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{1, 2}, {}}));
     EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{1}, {2}}));
     EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{1, 1}, {2, 2}}));
+    EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{0.1 + 0.2, 0.3}, {2, 2}}));
 }
 
 }  // namespace
