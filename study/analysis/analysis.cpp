@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kAnalysisFormat = "chironomia analysis 1";
+
 std::string title_of(const StudyFolder& study) {
     const fs::path pages = study.open() / "pages.json";
     if (!fs::exists(pages)) return "";
@@ -133,6 +135,21 @@ void remove_plots(const fs::path& folder) {
     }
 }
 
+// Tables of the last analysis in this folder that this one has not would pass for its own.
+void remove_old_tables(const Files& files, const fs::path& folder) {
+    if (!fs::exists(folder / "analysis.json")) return;
+    const Json last = Json::parse(read_text(folder / "analysis.json"), nullptr, false);
+    if (!last.is_object() || last.value("format", Json()) != kAnalysisFormat) return;
+    std::set<std::string> tables = {"battles", "elo_samples", "questionnaire"};
+    for (const char* rule : {"strict", "lenient"}) {
+        const Json results = last.value(rule, Json::object());
+        for (const auto& [table, rows] : results.items()) tables.insert(table);
+    }
+    for (const std::string& table : tables) {
+        if (!files.contains(table + ".csv")) fs::remove(folder / (table + ".csv"));
+    }
+}
+
 // All are on the disk before the first takes its place, so that a full disk leaves what was there.
 void write_files(const Files& files, const fs::path& folder) {
     for (const auto& [name, text] : files) {
@@ -145,6 +162,7 @@ void write_files(const Files& files, const fs::path& folder) {
     fs::create_directory(unfinished.path() / "plots");
     for (const auto& [name, text] : files) write_text(unfinished.path() / name, text);
     remove_plots(folder / "plots");
+    remove_old_tables(files, folder);
     for (const auto& [name, text] : files) {
         std::error_code problem;
         fs::create_directories((folder / name).parent_path(), problem);
@@ -199,7 +217,7 @@ Analysis analyse(const AnalysisJob& job) {
 }
 
 Json to_json(const Analysis& analysis) {
-    Json json = {{"format", "chironomia analysis 1"},
+    Json json = {{"format", kAnalysisFormat},
                  {"program", format("chironomia {}", program_version())},
                  {"study", analysis.data.study},
                  {"title", analysis.title},

@@ -45,8 +45,8 @@ std::string to_text(const Analysis& analysis);
 
 // report.html, tables.tex, analysis.json, answers.csv, participants.csv, a CSV for each kind of result with
 // both rules, battles.csv and elo_samples.csv where there are votes, and plots/*.svg. Files of the same
-// names, and other plots, are replaced, all of them or, if the folder cannot be written, none. Throws Error
-// then.
+// names, other plots, and tables of an earlier analysis are replaced, all of them or, if the folder cannot be
+// written, none. Throws Error then.
 void write_analysis(const Analysis& analysis, const std::filesystem::path& folder);
 
 }  // namespace chironomia::study::analysis

@@ -190,6 +190,29 @@ TEST(AnalyseCli, LeavesWhatWasThereIfItCannotWriteAll) {
 }
 
 // Answers elsewhere are analysed, but not into a folder that holds others.
+// The second answers have no votes, as nobody counts; a table of somebody else stays.
+TEST(AnalyseCli, LeavesNoTableOfAnEarlierAnalysis) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    const auto analyse = [&] {
+        return run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
+                               (folder / "answers.json").string(), "--samples", "200", "--out",
+                               (folder / "results").string()});
+    };
+    ASSERT_EQ(analyse().exit_code, 0);
+    ASSERT_TRUE(std::filesystem::exists(folder / "results/preferences.csv"));
+    write_text(folder / "results/mine.csv", "kept\n");
+    Json answers = read_json(folder / "answers.json");
+    for (Json& one : answers) one["answers"] = Json::array();
+    write_json(folder / "answers.json", answers);
+    const Outcome again = analyse();
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    for (const char* table : {"preferences.csv", "elo.csv", "elo_samples.csv", "battles.csv"})
+        EXPECT_FALSE(std::filesystem::exists(folder / "results" / table)) << table;
+    EXPECT_TRUE(std::filesystem::exists(folder / "results/participants.csv"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "results/mine.csv"));
+}
+
 TEST(AnalyseCli, WritesNoResultsAmongAnswers) {
     const TemporaryFolder folder;
     ASSERT_EQ(rehearse(folder).exit_code, 0);
