@@ -82,6 +82,29 @@ struct Endings {
     std::string list() const { return format("{}, {}", join(usual), join(others)); }
 };
 
+const Endings& endings_of_motions() {
+    static const Endings kEndings{.usual = {".bvh", ".glb", ".h5", ".npy", ".npz"},
+                                  .others = {".csv", ".json"}};
+    return kEndings;
+}
+
+const Endings& endings_of_sounds() {
+    static const Endings kEndings{.usual = {".flac", ".mp3", ".ogg", ".wav"},
+                                  .others = {".aac", ".m4a", ".mkv", ".mov", ".mp4", ".opus", ".webm"}};
+    return kEndings;
+}
+
+// A name in a table may have the ending of a motion or a sound, or none: of "talk.v2" nothing is an ending.
+std::string name_in_table(const fs::path& name) {
+    const std::string ending = to_lower(name.extension().string());
+    for (const Endings* endings : {&endings_of_motions(), &endings_of_sounds()}) {
+        for (const auto* some : {&endings->usual, &endings->others}) {
+            if (std::find(some->begin(), some->end(), ending) != some->end()) return name_of(name);
+        }
+    }
+    return composed(name.filename().string());
+}
+
 // macOS writes a "._NAME" for a file on a disk of another system.
 bool is_hidden(const fs::path& file) {
     return file.filename().string().starts_with('.');
@@ -174,7 +197,7 @@ std::vector<Segment> read_segments(const fs::path& file) {
     std::vector<Segment> segments;
     for (const CsvRow& row : table.rows) {
         Segment segment{.where = table.at(row),
-                        .name = name_of(fs::path(trim(row.cells[name]))),
+                        .name = name_in_table(fs::path(trim(row.cells[name]))),
                         .speaker = speaker ? std::string(trim(row.cells[*speaker])) : "",
                         .begin = seconds_in(table, row, begin),
                         .end = seconds_in(table, row, end)};
@@ -208,13 +231,9 @@ class Lengths {
 class Matching {
   public:
     explicit Matching(const FoldersJob& job) : job_(job) {
-        static const Endings kMotions{.usual = {".bvh", ".glb", ".h5", ".npy", ".npz"},
-                                      .others = {".csv", ".json"}};
-        static const Endings kSounds{.usual = {".flac", ".mp3", ".ogg", ".wav"},
-                                     .others = {".aac", ".m4a", ".mkv", ".mov", ".mp4", ".opus", ".webm"}};
         for (const ConditionFolder& condition : job.conditions)
-            motions_.push_back(list_by_name(condition.folder, kMotions));
-        if (!job.audio.empty()) sounds_ = list_by_name(job.audio, kSounds);
+            motions_.push_back(list_by_name(condition.folder, endings_of_motions()));
+        if (!job.audio.empty()) sounds_ = list_by_name(job.audio, endings_of_sounds());
     }
 
     // The clip of a segment, or nothing where something is missing.

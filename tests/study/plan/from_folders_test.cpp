@@ -199,6 +199,17 @@ TEST_F(PlanFromFolders, FindsNamesWhateverTheirFormOfUnicode) {
 }
 
 // The speech lasts 8.97 s.
+TEST_F(PlanFromFolders, TakesOnlyTheEndingOfAFileForOne) {
+    for (const char* name : {"ours/3_ann_0_1_1.v2.npz", "base/3_ann_0_1_1.v2.npz"}) write_motion(name, 4);
+    write_sound("3_ann_0_1_1.v2");
+    write_table(
+        "3_ann_0_1_1.v2,0,2,2\n3_ann_0_1_1.v2.WAV,2,4,2\n1_wayne_0_1_1,0,2,2\n2_scott_0_1_1.npz,0,2,2\n");
+    const Outcome outcome = plan();
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("\"id\": \"3_ann_0_1_1.v2_0-60\""));
+    EXPECT_THAT(outcome.out, HasSubstr("\"id\": \"3_ann_0_1_1.v2_60-120\""));
+}
+
 TEST_F(PlanFromFolders, ComparesSegmentsWithTheirSounds) {
     for (const char* system : {"ours", "base"}) {
         for (const char* name : {"1_wayne_0_1_1", "2_scott_0_1_1"})
