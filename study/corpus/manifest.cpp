@@ -1,5 +1,7 @@
 #include "study/corpus/manifest.h"
 
+#include <limits>
+#include <map>
 #include <set>
 
 #include "core/files/json_value.h"
@@ -109,6 +111,7 @@ class ManifestReader {
                 "there is \"speech\", but not \"voice\" of openSMILE's eGeMAPS; add it, or \"audio\"");
         talk.words = path_of(value.at("words"));
         if (const auto shots = value.find("shots")) talk.shots = path_of(*shots);
+        take(value.at("face"), talk.person.face, {.id = talk.id, .shots = talk.shots});
         talk.split = split_of(value);
         return talk;
     }
@@ -125,6 +128,7 @@ class ManifestReader {
             dyad.participants[p] = name_of_person(people[p].at("participant"));
             if (const auto role = people[p].find("role")) dyad.roles[p] = role->text();
             dyad.people[p] = person_of(people[p]);
+            take(people[p].at("face"), dyad.people[p].face, {.id = dyad.id});
         }
         if (dyad.participants[0] == dyad.participants[1]) {
             people[1]
@@ -154,6 +158,9 @@ class ManifestReader {
                 end->refuse(format("is {} s, and the part starts at {} s; it must end behind that",
                                    *interval.end, interval.start.value_or(0)));
         }
+        take(
+            value.at("pose"), interval.pose,
+            {.id = interval.id, .start = interval.start.value_or(0), .end = interval.end.value_or(kLongest)});
         if (const auto face = value.find("face")) interval.face = face->flag();
         interval.split = split_of(value);
         return interval;
@@ -194,12 +201,37 @@ class ManifestReader {
         return name;
     }
 
-    // In the index two names are joined by "+".
-    static std::string name_of_person(const JsonValue& value) {
+    // In the index two names are joined by "+". A person with two names may be in two splits.
+    std::string name_of_person(const JsonValue& value) {
         std::string name = plain(value);
         if (name.find('+') != std::string::npos)
             value.refuse(format("\"{}\" has a +, which joins the people of a dyad", name));
+        const std::string& first = people_.try_emplace(to_lower(name), name).first->second;
+        if (first != name)
+            value.refuse(
+                format("is \"{}\", and \"{}\" comes before; write one person's name in one way, and give "
+                       "two people names that differ by more",
+                       name, first));
         return name;
+    }
+
+    // What a recording takes of a motion. Taken twice it may be in two splits, and a model is judged on what it has
+    // learned.
+    struct Taken {
+        std::string id;
+        fs::path shots{};
+        double start = 0, end = std::numeric_limits<double>::infinity();  // [s]
+    };
+    void take(const JsonValue& value, const fs::path& motion, const Taken& part) {
+        std::vector<Taken>& others = taken_[fs::canonical(motion)];
+        for (const Taken& other : others) {
+            if (part.shots != other.shots || part.start >= other.end || other.start >= part.end) continue;
+            value.refuse(format(
+                "{} is of \"{}\" already; take no part of a recording twice, for a model would be judged "
+                "on what it has learned",
+                motion.string(), other.id));
+        }
+        others.push_back(part);
     }
 
     fs::path path_of(const JsonValue& value) const {
@@ -221,7 +253,9 @@ class ManifestReader {
     JsonValue value_;
     fs::path folder_;
     std::set<std::string> ids_;
-    std::optional<bool> has_splits_;  // of the first recording
+    std::map<std::string, std::string> people_;     // names as they are first written, by their lower case
+    std::map<fs::path, std::vector<Taken>> taken_;  // by the canonical paths of motions
+    std::optional<bool> has_splits_;                // of the first recording
     ImportManifest manifest_;
 };
 

@@ -32,7 +32,8 @@ using testing::TemporaryFolder;
 class CorpusImport : public ::testing::Test {
   protected:
     CorpusImport() {
-        testing::write_openface(file("face.csv"), {.first_lost = 20, .end_lost = 23});
+        for (const char* face : {"face.csv", "p1.csv", "p2.csv"})
+            testing::write_openface(file(face), {.first_lost = 20, .end_lost = 23});
         testing::write_voice(file("voice.wav"));
         testing::write_timed_words(file("words.csv"));
     }
@@ -47,7 +48,7 @@ class CorpusImport : public ::testing::Test {
                 {"words", "words.csv"}};
     }
     static Json person(const std::string& name, const std::string& role) {
-        return {{"participant", name}, {"role", role}, {"face", "face.csv"}, {"audio", "voice.wav"}};
+        return {{"participant", name}, {"role", role}, {"face", name + ".csv"}, {"audio", "voice.wav"}};
     }
     static Json dyad() {
         return {{"id", "d1"},
@@ -139,6 +140,7 @@ TEST_F(CorpusImport, BringsTheFaceToItsRateAndBridgesIt) {
 TEST_F(CorpusImport, GivesTheSameBytes) {
     Json second = talk();
     second["id"] = "t2";
+    second["face"] = "p2.csv";
     ASSERT_EQ(import_all("talks", {talk(), second}, "a").exit_code, 0);
     ASSERT_EQ(import_all("talks", {talk(), second}, "b").exit_code, 0);
     for (const char* name :
@@ -249,8 +251,8 @@ TEST_F(CorpusImport, RefusesAFaceWithoutWhatTheCorpusNeeds) {
                 HasSubstr("face.csv: it has no AU05_r, which the corpus needs; let the tracker write them"));
     testing::write_openface(file("face.csv"), {.without = "pose"});
     EXPECT_THAT(talk_refusal("id", "t1"), HasSubstr("face.csv: it has no pose_Rx, pose_Ry, pose_Rz"));
-    testing::write_openface(file("face.csv"), {.without = "gaze"});
-    EXPECT_THAT(dyad_refusal(dyad()), HasSubstr("face.csv: it has no gaze_angle_x, gaze_angle_y"));
+    testing::write_openface(file("p1.csv"), {.without = "gaze"});
+    EXPECT_THAT(dyad_refusal(dyad()), HasSubstr("p1.csv: it has no gaze_angle_x, gaze_angle_y"));
     EXPECT_THAT(
         talk_refusal("face", (testing::source_dir() / "assets/samples/expressive/two-ways.bvh").string()),
         HasSubstr("two-ways.bvh: it holds no face"));
@@ -317,6 +319,7 @@ TEST_F(CorpusImport, RefusesABrokenManifestWithItsKey) {
                 HasSubstr("recordings[1].id: \"t1\" comes twice"));
     Json with_split = talk();
     with_split["id"] = "t2";
+    with_split["face"] = "p2.csv";
     with_split["split"] = "test";
     EXPECT_THAT(refusal({{"kind", "talks"}, {"recordings", {talk(), with_split}}}),
                 HasSubstr("recordings[1]: some recordings have a \"split\" and some have none"));
@@ -329,10 +332,37 @@ TEST_F(CorpusImport, RefusesABrokenManifestWithItsKey) {
     EXPECT_THAT(dyad_refusal(alone), HasSubstr("recordings[0].people: there are 3; a dyad has 2"));
 }
 
+// Both would put the same motion or the same person into two splits.
+TEST_F(CorpusImport, RefusesAFaceThatIsTakenTwice) {
+    Json again = talk();
+    again["id"] = "t2";
+    again["speaker"] = "ben";
+    again["face"] = "./face.csv";
+    EXPECT_THAT(
+        refusal({{"kind", "talks"}, {"recordings", {talk(), again}}}),
+        HasSubstr("face.csv is of \"t1\" already; take no part of a recording twice, for a model would be "
+                  "judged on what it has learned"));
+    Json alone = dyad();
+    alone["people"][1]["face"] = "p1.csv";
+    EXPECT_THAT(dyad_refusal(alone), HasSubstr("recordings[0].people[1].face: "));
+}
+
+TEST_F(CorpusImport, RefusesNamesOfPeopleThatDifferByCaseAlone) {
+    Json again = talk();
+    again["id"] = "t2";
+    again["face"] = "p2.csv";
+    again["speaker"] = "Anna";
+    EXPECT_THAT(
+        refusal({{"kind", "talks"}, {"recordings", {talk(), again}}}),
+        HasSubstr("recordings[1].speaker: is \"Anna\", and \"anna\" comes before; write one person's name in "
+                  "one way"));
+}
+
 TEST_F(CorpusImport, RefusesASpeakerInTwoSplits) {
     Json first = talk(), second = talk();
     first["split"] = "train";
     second["id"] = "t2";
+    second["face"] = "p2.csv";
     second["split"] = "unseen";
     EXPECT_THAT(refusal({{"kind", "talks"}, {"recordings", {first, second}}}),
                 HasSubstr("speaker \"anna\" is in the split unseen (record \"t2_0000\") and in train (record "
@@ -393,6 +423,8 @@ TEST_F(CorpusImport, IsDescribedWithHowRichTheWordsAre) {
         write_text(file(who + ".csv"), table);
         Json said = talk();
         said["id"] = said["speaker"] = who;
+        said["face"] = "face of " + who;
+        fs::copy_file(file("face.csv"), file("face of " + who));
         said["words"] = who + ".csv";
         return said;
     };

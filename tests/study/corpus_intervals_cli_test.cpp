@@ -383,7 +383,8 @@ TEST_F(IntervalImport, SplitsBySpeakersUnlessSplitsAreGiven) {
     std::vector<Json> recordings;
     for (const char* who : {"anna", "ben", "cleo", "dora", "emil"}) {
         recordings.push_back(with("speaker", who));
-        recordings.back()["id"] = who;
+        recordings.back()["id"] = recordings.back()["pose"] = who;
+        fs::copy(file("pose"), file(who));
     }
     const Outcome made = import_all(recordings);
     ASSERT_EQ(made.exit_code, 0) << made.err;
@@ -403,6 +404,8 @@ TEST_F(IntervalImport, SplitsBySpeakersUnlessSplitsAreGiven) {
 
 TEST_F(IntervalImport, GivesTheSameBytes) {
     Json second = with("id", "r2");
+    second["pose"] = "copy";
+    fs::copy(file("pose"), file("copy"));
     ASSERT_EQ(import_all({recording(), second}, Json::object(), "a").exit_code, 0);
     ASSERT_EQ(import_all({recording(), second}, Json::object(), "b").exit_code, 0);
     for (const char* name : {"corpus.json", "statistics.json", "data/cmu_intervals_df.csv",
@@ -573,9 +576,22 @@ TEST_F(IntervalImport, RefusesAPoseThatDoesNotLastAsLongAsTheSound) {
     EXPECT_THAT(refusal(with("start", 15)), HasSubstr("the part from 15 to 14 s is taken"));
 }
 
+TEST_F(IntervalImport, TakesNoPartOfARecordingTwice) {
+    Json first = with("end", 7), second = with("start", 6.9);
+    second["id"] = "r2";
+    second["speaker"] = "ben";
+    const Outcome twice = import_all({first, second});
+    EXPECT_EQ(twice.exit_code, 3);
+    EXPECT_THAT(twice.err, HasSubstr("pose is of \"r1\" already; take no part of a recording twice"));
+    second["start"] = 7;
+    EXPECT_EQ(import_all({first, second}).exit_code, 0) << "these are two parts";
+}
+
 TEST_F(IntervalImport, LeavesNothingBehindIfTheLastRecordingIsBroken) {
     Json second = with("words", "broken.csv");
     second["id"] = "r2";
+    second["pose"] = "copy";
+    fs::copy(file("pose"), file("copy"));
     write_text(file("broken.csv"), "start,end,word\n3,2,back\n");
     const Outcome outcome = import_all({recording(), second});
     EXPECT_EQ(outcome.exit_code, 3);
