@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/audio.h"
 #include "core/error.h"
@@ -12,6 +13,7 @@
 #include "study/corpus/recording.h"
 #include "synth/features/spectrum.h"
 #include "synth/features/speech_units.h"
+#include "synth/speech/silent_words.h"
 #include "synth/speech/timed_words.h"
 #include "synth/text/dialog_acts.h"
 #include "synth/text/interval_text.h"
@@ -94,6 +96,8 @@ class IntervalCutter {
                        "of all recordings",
                        sound_.rate, 0.5 * sound_.rate));
         }
+        if (auto note = note_of_silent_words(timed.words, recording.words, sound_, recording.audio))
+            cut_.notes.push_back(std::move(*note));
         std::vector<CorpusWord> written;
         for (std::size_t w = 0; w < timed.words.size(); ++w) {
             const SpokenWord& word = timed.words[w];

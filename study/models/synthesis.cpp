@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -18,6 +17,7 @@
 #include "synth/speakers/speakers.h"
 #include "synth/speech/accents.h"
 #include "synth/speech/align.h"
+#include "synth/speech/silent_words.h"
 #include "synth/speech/speak.h"
 #include "synth/speech/timed_words.h"
 
@@ -196,34 +196,6 @@ std::string language_of(const SynthesisJob& job, const TimedWords& timed, const 
     return timed.language;
 }
 
-// Words that a file of times puts where nothing is heard, as times that begin elsewhere than the sound do.
-void note_words_in_silence(const SynthesisJob& job, const std::vector<SpokenWord>& words, const Audio& sound,
-                           std::vector<std::string>& notes) {
-    // Mean squares against the square of the highest peak. Ours: unstressed words lie some 35 dB below it, pauses in a
-    // quiet room 60 dB.
-    constexpr double kSilent = 1e-5, kMany = 0.25;
-    std::vector<double> energies;
-    for (const SpokenWord& word : words) {
-        const auto sample = [&](double time) {
-            return std::min(sound.length(), static_cast<std::size_t>(std::lround(time * sound.rate)));
-        };
-        const auto from = sound.samples.begin() + static_cast<std::ptrdiff_t>(sample(word.start));
-        const auto to = sound.samples.begin() + static_cast<std::ptrdiff_t>(sample(word.end));
-        energies.push_back(std::inner_product(from, to, from, 0.0) / std::max<double>(1, double(to - from)));
-    }
-    double loudest = 0;
-    for (const float value : sound.samples) loudest = std::max(loudest, double(value) * value);
-    const auto is_silent = [&](double energy) { return energy <= kSilent * loudest; };
-    const auto silent = std::count_if(energies.begin(), energies.end(), is_silent);
-    if (static_cast<double>(silent) <= kMany * static_cast<double>(words.size())) return;
-    const auto first = std::find_if(energies.begin(), energies.end(), is_silent) - energies.begin();
-    const SpokenWord& word = words[static_cast<std::size_t>(first)];
-    notes.push_back(format(
-        "{}: {} of {} words lie where {} is silent, the first is \"{}\" at {:.2f} s; are its times those of "
-        "this sound?",
-        job.words->string(), silent, words.size(), job.recording->string(), word.text, word.start));
-}
-
 Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Lexicon& lexicon,
                 std::vector<std::string>& notes) {
     Audio sound = mono(read_audio(*job.recording));
@@ -249,7 +221,8 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Le
                    job.words->string()));
     }
     notes = std::move(timed.notes);
-    note_words_in_silence(job, timed.words, sound, notes);
+    if (auto note = note_of_silent_words(timed.words, *job.words, sound, *job.recording))
+        notes.push_back(std::move(*note));
     const std::string language = language_of(job, timed, of_speaker, notes);
     const MarkedText text =
         has_script(job) ? parse(job, language, lexicon) : parse_words(timed, *job.words, language);

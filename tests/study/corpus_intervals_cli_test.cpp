@@ -38,6 +38,7 @@ using ::testing::FloatNear;
 using ::testing::HasSubstr;
 using testing::info_of;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using testing::Outcome;
 using testing::run_chironomia;
 using testing::TemporaryFolder;
@@ -574,6 +575,16 @@ TEST_F(IntervalImport, RefusesAPoseThatDoesNotLastAsLongAsTheSound) {
                   "s and its sound 14.00 s; take what both have"));
     write_pose({});
     EXPECT_THAT(refusal(with("start", 15)), HasSubstr("the part from 15 to 14 s is taken"));
+}
+
+TEST_F(IntervalImport, SaysThatWordsLieInSilence) {
+    EXPECT_THAT(import_all({recording()}).err, Not(HasSubstr("silent")));
+    write_wav(file("muted.wav"), testing::sound_of(kSeconds, 22050, [](double) { return 0.0; }));
+    const Outcome muted = import_all({with("audio", "muted.wav")});
+    EXPECT_EQ(muted.exit_code, 0);
+    EXPECT_THAT(muted.err, AllOf(HasSubstr("r1: "), HasSubstr("words.csv: 20 of 20 words lie where "),
+                                 HasSubstr("muted.wav is silent, the first is \"Hello\" at "),
+                                 HasSubstr(" s; are its times those of this sound?\n")));
 }
 
 TEST_F(IntervalImport, TakesNoPartOfARecordingTwice) {
