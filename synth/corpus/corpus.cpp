@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/text.h"
 #include "synth/corpus/corpus_entries.h"
 #include "synth/corpus/pats_tree.h"
@@ -222,6 +223,25 @@ DyadRecord read_dyad(const CorpusIndex& corpus, const CorpusEntry& entry) {
 
 IntervalRecord read_interval(const CorpusIndex& corpus, const CorpusEntry& entry) {
     return read_interval_file(pats_file(corpus.folder, entry.speaker, entry.id), entry.id, entry.speaker);
+}
+
+std::string hash_of_learned(const CorpusIndex& corpus) {
+    std::string all;
+    for (const CorpusEntry& entry : corpus.entries) {
+        if (entry.split == Split::test) continue;
+        all += format("{} {} {} {}\n", entry.id, entry.speaker, name_of(entry.split),
+                      sha256_of_file(record_path(corpus.folder, corpus.kind, entry.speaker, entry.id)));
+    }
+    return sha256(all);
+}
+
+std::string hash_of_split(const CorpusIndex& corpus) {
+    std::string all;
+    for (const CorpusEntry& entry : corpus.entries) {
+        if (entry.split != Split::train && entry.split != Split::validation) continue;
+        all += format("{} {} {}\n", entry.id, entry.speaker, name_of(entry.split));
+    }
+    return sha256(all);
 }
 
 void write_ipu(const std::filesystem::path& folder, const IpuRecord& record) {

@@ -71,6 +71,11 @@ IpuRecord read_ipu(const CorpusIndex& corpus, const CorpusEntry& entry);
 DyadRecord read_dyad(const CorpusIndex& corpus, const CorpusEntry& entry);
 IntervalRecord read_interval(const CorpusIndex& corpus, const CorpusEntry& entry);
 
+// SHA-256 of all that models may learn from: ids, speakers, splits and files of the records that are not in `test`.
+std::string hash_of_learned(const CorpusIndex& corpus);
+// SHA-256 of which records are in `train` and `validation`, by ids and speakers; reads no files.
+std::string hash_of_split(const CorpusIndex& corpus);
+
 // Under `folder` of a corpus that is being made; the same record gives the same bytes. Spectra and vectors of
 // words are kept as 16-bit floats. Throw Error as reading them would; from any number of threads at once.
 void write_ipu(const std::filesystem::path& folder, const IpuRecord& record);

@@ -14,6 +14,7 @@
 #include "core/files/wav_file.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_hdf5.h"
+#include "synth/corpus/corpus.h"
 #include "tests/study/process.h"
 #include "tests/support/motion_hdf5.h"
 #include "tests/support/support.h"
@@ -27,6 +28,7 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::Outcome;
 using testing::run_chironomia;
 using testing::TemporaryFolder;
@@ -117,9 +119,44 @@ TEST_F(Learning, RefusesToGoOnOverAnotherCorpusOfTheSameSize) {
     must(command("dyads", "1"));
     const Outcome outcome = run_chironomia(command("others", "2"));
     EXPECT_EQ(outcome.exit_code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("model: holds a training on another corpus, in which "));
+    EXPECT_THAT(outcome.err, HasSubstr("model.json: holds a training on another corpus, in which "));
     EXPECT_THAT(outcome.err, HasSubstr("; name another file, or remove this one to train anew"));
     must(command("dyads", "2"));
+}
+
+// The ranges are the same: what one of them said comes in another order.
+TEST_F(Learning, RefusesToGoOnOverACorrectedCorpus) {
+    write_dyads(folder_ / "dyads");
+    const std::vector<std::string> command = {"train",    "amii",  "--corpus",   file("dyads"),
+                                              "--preset", "small", "--steps",    "1",
+                                              "--quiet",  "--out", file("model")};
+    must(command);
+    const CorpusIndex corpus = read_corpus_index(folder_ / "dyads");
+    const auto change = [&](Split split) {
+        DyadRecord record = read_dyad(corpus, corpus.of(split).at(0));
+        std::ranges::rotate(record.people[0].speech, record.people[0].speech.begin() + DyadPerson::kSpeech);
+        write_dyad(corpus.folder, record);
+    };
+    change(Split::test);
+    must(command);  // nothing is learned from it
+    change(Split::train);
+    const Outcome outcome = run_chironomia(command);
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("model.json: holds a training on other records: SHA-256 "));
+}
+
+TEST_F(Learning, SaysThatAModelMayBeJudgedOnWhatItHasLearned) {
+    write_dyads(folder_ / "dyads");
+    train("amii", "dyads", "model.safetensors");
+    evaluate("model.safetensors", "dyads");
+    EXPECT_THAT(said_, Not(HasSubstr("learned")));
+    CorpusIndex corpus = read_corpus_index(folder_ / "dyads");
+    std::swap(corpus.entries[0].split, corpus.entries[2].split);  // as another seed would
+    write_corpus_index(corpus);
+    evaluate("model.safetensors", "dyads");
+    EXPECT_THAT(said_,
+                HasSubstr("model.safetensors: it has learned from other records than those in \"train\" and "
+                          "\"validation\" of "));
 }
 
 // libtorch, OpenBLAS and oneDNN would take the instructions of a processor of 2008, as they are told here.

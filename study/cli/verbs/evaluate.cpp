@@ -45,15 +45,32 @@ fs::path predict(const EvaluateCommand& command, Json who, const std::string& na
     return file;
 }
 
+Json description_of(const fs::path& checkpoint) {
+    return ask_to_learn({{"verb", "describe"}, {"checkpoint", whole(checkpoint).string()}});
+}
+
+// Of models that have learned from other records than those that the corpus has for it, as of one that was imported
+// again with another seed. Bundled checkpoints, and those of earlier versions, do not say from which.
+std::vector<std::string> notes_of_splits(const EvaluateCommand& command) {
+    if (command.split == "train" || command.split == "validation") return {};
+    std::vector<std::string> notes;
+    for (const fs::path& checkpoint : command.checkpoints) {
+        const Json split = description_of(checkpoint).value("split", Json());
+        if (!split.is_string() || split == hash_of_split(read_corpus_index(command.corpus))) continue;
+        notes.push_back(
+            format("{}: it has learned from other records than those in \"train\" and \"validation\" of {}; "
+                   "where some of these are in \"{}\", it is judged on what it has learned",
+                   checkpoint.string(), command.corpus.string(), command.split));
+    }
+    return notes;
+}
+
 // Before any of them predicts, which takes minutes.
 void check_same_outputs(const std::vector<fs::path>& checkpoints) {
     if (checkpoints.size() < 2) return;
-    const auto outputs_of = [](const fs::path& checkpoint) {
-        return ask_to_learn({{"verb", "describe"}, {"checkpoint", whole(checkpoint).string()}}).at("outputs");
-    };
-    const Json first = outputs_of(checkpoints.front());
+    const Json first = description_of(checkpoints.front()).at("outputs");
     for (const fs::path& checkpoint : std::span(checkpoints).subspan(1)) {
-        const Json other = outputs_of(checkpoint);
+        const Json other = description_of(checkpoint).at("outputs");
         if (other == first) continue;
         throw Error(
             format("--checkpoint {} and {}: they predict {} and {}; evaluate together models that "
@@ -99,7 +116,7 @@ std::vector<StyleEncodings> encodings_of(const EvaluateCommand& command,
     for (std::size_t i = 0; i < command.checkpoints.size(); ++i) {
         if (models[i].items.front().style.empty()) continue;
         const std::string file = whole(command.checkpoints[i]).string();
-        const std::string model = ask_to_learn({{"verb", "describe"}, {"checkpoint", file}}).at("model");
+        const std::string model = description_of(command.checkpoints[i]).at("model");
         if (!model.starts_with("zs-mstm")) continue;
         const JobFolder folder;
         ask_to_learn({{"verb", "encode_styles"},
@@ -288,6 +305,7 @@ int run(const EvaluateCommand& command) {
     for (const std::string& name : command.against)
         models.push_back(baseline_of(command, name, models.front()));
     Evaluation evaluation = evaluate(models, command.evaluation);
+    for (std::string& note : notes_of_splits(command)) evaluation.notes.push_back(std::move(note));
     const std::vector<StyleEncodings> encodings = encodings_of(command, models);
     if (!encodings.empty()) evaluation.more.push_back(encodings_table(encodings));
     for (analysis::Table& table : judgements_of(command, files, models))

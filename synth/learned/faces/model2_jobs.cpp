@@ -40,8 +40,9 @@ Json train_model2(const JsonValue& job) {
                       .rate = rate_of(model2_options(preset, choices), preset),
                       .epochs = preset == "small" ? 40U : 300U,  // A43
                       .patience = 20};                           // alike
-    apply_job(job, begin_job(job), plan);
+    const JobRun run = begin_job(job);
     const FaceCorpus corpus = read_face_corpus(job, {.by_frames = model2_options(preset, choices).by_frames});
+    apply_job(job, run, plan);
     torch::manual_seed(plan.seed);
     FaceModel model = build_model2(new_checkpoint(job, corpus, choices));
     const TrainingTask task = face_task(model, corpus, 128);

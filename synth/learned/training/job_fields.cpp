@@ -76,6 +76,9 @@ void apply_job(const JsonValue& job, const JobRun& run, TrainingPlan& plan) {
     plan.seed = run.seed;
     plan.threads = run.threads;
     plan.quiet = run.quiet;
+    const CorpusIndex corpus = read_corpus_index(job.at("corpus").text());
+    plan.corpus = hash_of_learned(corpus);
+    plan.split = hash_of_split(corpus);
     if (const auto steps = job.find("steps"))
         plan.steps = static_cast<std::size_t>(steps->integer(1, kMostCount));
     if (const auto epochs = job.find("epochs"))
@@ -101,6 +104,7 @@ Json checkpoint_answer(const Checkpoint& checkpoint) {
             {"outputs", feature_names(checkpoint.outputs)},
             {"seed", checkpoint.seed},
             {"steps", checkpoint.step},
+            {"split", checkpoint.training.contains("split") ? checkpoint.training.at("split") : Json()},
             {"curve", curve_json(checkpoint.curve)},
             {"version", checkpoint.version}};
 }

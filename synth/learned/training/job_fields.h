@@ -34,8 +34,8 @@ CorpusIndex job_corpus(const JsonValue& job, CorpusKind kind);
 // The job's "split".
 Split job_split(const JsonValue& job);
 
-// What a training's plan takes from its job: how it runs, and "steps", "epochs" and "save_every" where the job has
-// them.
+// What a training's plan takes from its job: how it runs, what it learns from, and "steps", "epochs" and "save_every"
+// where the job has them.
 void apply_job(const JsonValue& job, const JobRun& run, TrainingPlan& plan);
 
 // What "train" answers.

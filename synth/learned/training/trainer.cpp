@@ -65,6 +65,12 @@ Json to_json(const LearningRate& rate) {
     return json;
 }
 
+constexpr const char* kAnew = "name another file, or remove this one to train anew";
+
+fs::path json_of(fs::path stem) {
+    return stem += ".json";
+}
+
 // What must be the same for one training to go on where another ended.
 Json identity(const TrainingTask& task, const TrainingPlan& plan, const Checkpoint& described) {
     return {{"model", described.model}, {"preset", described.preset}, {"options", described.options},
@@ -76,10 +82,8 @@ void check_same(const Json& asked, const Json& found, const fs::path& file) {
     for (const auto& [key, value] : asked.items()) {
         const Json other = found.is_object() ? found.value(key, Json()) : Json();
         if (other == value) continue;
-        throw Error(
-            format("{}: holds a training whose {} is {}, asked for is {}; name another file, or remove this "
-                   "one to train anew",
-                   file.string(), key, other.dump(), value.dump()));
+        throw Error(format("{}: holds a training whose {} is {}, asked for is {}; {}", json_of(file).string(),
+                           key, other.dump(), value.dump(), kAnew));
     }
 }
 
@@ -90,9 +94,28 @@ void check_same_corpus(const std::vector<Feature>& asked, const std::vector<Feat
         if (asked[f].low == found[f].low && asked[f].high == found[f].high) continue;
         throw Error(format(
             "{}: holds a training on another corpus, in which {} reaches from {} to {}; in this one it "
-            "reaches from {} to {}; name another file, or remove this one to train anew",
-            file.string(), asked[f].name, found[f].low, found[f].high, asked[f].low, asked[f].high));
+            "reaches from {} to {}; {}",
+            json_of(file).string(), asked[f].name, found[f].low, found[f].high, asked[f].low, asked[f].high,
+            kAnew));
     }
+}
+
+// Files of earlier versions do not say what was learned.
+void check_same_records(const std::string& asked, const Json& training, const fs::path& file) {
+    const Json found = training.value("corpus", Json());
+    if (asked.empty() || !found.is_string() || found == asked) return;
+    throw Error(format(
+        "{}: holds a training on other records: SHA-256 {:.8}..., those of this corpus have {:.8}...; {}",
+        json_of(file).string(), found.get<std::string>(), asked, kAnew));
+}
+
+void check_not_longer(const TrainingState& done, const TrainingPlan& plan, const fs::path& file) {
+    const std::size_t steps = plan.steps.value_or(done.step);
+    if (done.step <= steps && done.epoch <= plan.epochs) return;
+    const bool by_steps = done.step > steps;
+    throw Error(format("{}: holds a training of {} {}, asked for is one of {}; ask for as many, or {}",
+                       json_of(file).string(), by_steps ? done.step : done.epoch,
+                       by_steps ? "steps" : "epochs", by_steps ? steps : plan.epochs, kAnew));
 }
 
 class Training {
@@ -229,13 +252,15 @@ class Training {
     }
 
     void go_on_from_file() {
-        if (!fs::exists(fs::path(stem_) += ".json")) return;
+        if (!fs::exists(json_of(stem_))) return;
         const StoredCheckpoint found = read_checkpoint(stem_, CheckpointParts::all);
         check_same(identity(task_, plan_, described_), found.description.training.value("identity", Json()),
                    stem_);
         check_same_corpus(described_.inputs, found.description.inputs, stem_);
         check_same_corpus(described_.outputs, found.description.outputs, stem_);
+        check_same_records(plan_.corpus, found.description.training, stem_);
         state_ = training_state(found, *task_.model, optimiser_, stem_);
+        check_not_longer(state_, plan_, stem_);
     }
 
     //   end  what is shown and used; training itself goes on from state_
@@ -246,6 +271,8 @@ class Training {
         checkpoint.step = state_.step;
         checkpoint.curve = end.curve;
         checkpoint.training = {{"identity", identity(task_, plan_, described_)}, {"state", to_json(state_)}};
+        if (!plan_.corpus.empty())
+            checkpoint.training.update({{"corpus", plan_.corpus}, {"split", plan_.split}});
         write_checkpoint(stem_,
                          {.description = std::move(checkpoint),
                           .weights = end.best_weights.empty() ? weights_of(*task_.model) : end.best_weights,

@@ -60,6 +60,8 @@ struct TrainingPlan {
     std::optional<double> enough;         // validation loss at which it ends; none: however good it is
     double clip = 0;                      // longest gradient; 0: of any length
     std::uint64_t seed = 1;
+    std::string corpus{};  // SHA-256 of what there is to learn (hash_of_learned); empty: not known
+    std::string split{};   // SHA-256 of which records that are (hash_of_split)
     int threads = 1;
     bool quiet = false;
     // A checkpoint is written at the end, when interrupted, and before a step when so much time has passed, but so that
@@ -81,7 +83,7 @@ struct TrainingResult {
 // Losses are bit by bit the same for the same seed and thread count on one machine; with another thread
 // count, sums are added up in another order and the last digits change.
 // Throws Error with step and rate if the loss or a gradient is not finite, with `file` if it holds another
-// training, or one whose features have other ranges, as of another corpus; Interrupted, after the checkpoint is written.
+// training, one on another corpus, or one that is longer; Interrupted, after the checkpoint is written.
 TrainingResult train(const TrainingTask& task, const TrainingPlan& plan, const Checkpoint& described,
                      const std::filesystem::path& file);
 

@@ -279,8 +279,40 @@ TEST(Trainer, RefusesToGoOnWithAnotherTraining) {
     plan.seed = 2;
     EXPECT_THAT(
         testing::refusal_of([&] { train_toy(toy, plan, folder / "toy"); }),
-        HasSubstr("toy: holds a training whose seed is 1, asked for is 2; name another file, or remove "
+        HasSubstr("toy.json: holds a training whose seed is 1, asked for is 2; name another file, or remove "
                   "this one to train anew"));
+}
+
+TEST(Trainer, RefusesToGoOnOverOtherRecords) {
+    const TemporaryFolder folder;
+    ToyTask toy;
+    TrainingPlan plan = toy_plan();
+    train_toy(toy, plan, folder / "toy");
+    plan.corpus = "0123456789";
+    train_toy(toy, plan, folder / "toy");  // of a version that did not say what was learned
+    train_toy(toy, plan, folder / "new");
+    plan.corpus = "9876543210";
+    EXPECT_THAT(
+        testing::refusal_of([&] { train_toy(toy, plan, folder / "new"); }),
+        HasSubstr(
+            "new.json: holds a training on other records: SHA-256 01234567..., those of this corpus have "
+            "98765432...; name another file, or remove this one to train anew"));
+}
+
+TEST(Trainer, RefusesToBeShorterThanItWas) {
+    const TemporaryFolder folder;
+    ToyTask toy;
+    TrainingPlan plan = toy_plan();
+    plan.epochs = 2;
+    train_toy(toy, plan, folder / "toy");
+    plan.epochs = 1;
+    EXPECT_THAT(testing::refusal_of([&] { train_toy(toy, plan, folder / "toy"); }),
+                HasSubstr("toy.json: holds a training of 2 epochs, asked for is one of 1; ask for as many, "
+                          "or name another file, or remove this one"));
+    plan.epochs = 2;
+    plan.steps = 5;
+    EXPECT_THAT(testing::refusal_of([&] { train_toy(toy, plan, folder / "toy"); }),
+                HasSubstr("toy.json: holds a training of 6 steps, asked for is one of 5; ask"));
 }
 
 }  // namespace
