@@ -97,6 +97,7 @@ TEST_F(Learning, LeavesAWholeCheckpointWhenASignalEndsIt) {
         ASSERT_THAT(running.wait_for_err("training: "), HasSubstr("training: "));
         const Outcome outcome = running.end(signal);
         EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("chironomia: interrupted; the same command goes on from here\n"));
         const int step = read_json(folder_ / (std::string(name) + ".json"))["step"];
         EXPECT_GT(step, 0);
         const std::string steps = std::to_string(step + 9), whole = std::string(name) + "-whole";

@@ -90,7 +90,13 @@ void add_train(CLI::App& app, std::optional<Command>& result) {
 }
 
 int run(const TrainCommand& command) {
-    const Json answer = train(command);
+    Json answer;
+    try {
+        answer = train(command);
+    } catch (const Interrupted&) {
+        std::fputs("chironomia: interrupted; the same command goes on from here\n", stderr);
+        return kExitInterrupted;
+    }
     if (command.json) {
         print(answer.dump(2) + "\n");
         return kExitYes;
