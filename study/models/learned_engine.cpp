@@ -122,6 +122,20 @@ SpokenUnits units_of(const Speech& speech, const std::string& model) {
     return all;
 }
 
+// Models of faces hear the pitch of words.
+void check_voiced(const SpokenUnits& units, const PitchTrack& pitch) {
+    const auto frame = [&](double time) {
+        return std::min(pitch.f0.size(), static_cast<std::size_t>(std::lround(time * pitch.rate)));
+    };
+    for (std::size_t word = 0; word < units.words.size(); ++word) {
+        for (std::size_t t = frame(units.times[2 * word]); t < frame(units.times[2 * word + 1]); ++t)
+            if (pitch.f0[t] > 0) return;
+    }
+    throw Error(
+        "no word of the speech is voiced, and the model hears its pitch; give a sound in which somebody speaks, "
+        "and the times of its words");
+}
+
 // The inputs of Models 1 and 2 (synth/learned/faces/face_jobs.h).
 void write_spoken(const fs::path& file, const Speech& speech, const SpokenUnits& units,
                   const TextEncoder& encoder) {
@@ -129,6 +143,7 @@ void write_spoken(const fs::path& file, const Speech& speech, const SpokenUnits&
     for (const std::vector<float>& rows : encoder.vectors(units.utterances))
         vectors.insert(vectors.end(), rows.begin(), rows.end());
     const PitchTrack pitch = find_pitch(speech.audio);
+    check_voiced(units, pitch);
     Hdf5Writer writer(file, file.string());
     writer.write_texts("text_encoder", {encoder.name});
     writer.write_texts("words", units.words);

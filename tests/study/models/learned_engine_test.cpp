@@ -130,6 +130,15 @@ TEST_F(LearnedSynth, SaysWhatIsMissing) {
                 HasSubstr("none"));
     EXPECT_THAT(refusal({"--engine", "amii", "--text", "Well then.", "--checkpoint", "c"}, 3),
                 HasSubstr("give both --user-face and --user-speech"));
+    write_wav(folder_ / "s.wav", {.rate = 16000, .channels = 1, .samples = std::vector<float>(16000)});
+    write_text(folder_ / "w.csv", "word,start,end\nwell,0.2,0.8\n");
+    EXPECT_THAT(
+        refusal({"--engine", "model2", "--speech", (folder_ / "s.wav").string(), "--words",
+                 (folder_ / "w.csv").string()},
+                3),
+        HasSubstr(
+            "chironomia: no word of the speech is voiced, and the model hears its pitch; give a sound in "
+            "which somebody speaks"));
 }
 
 // What is only described must be as whole as what animates.
