@@ -237,7 +237,9 @@ Table rater_votes_table(const TableSource& of) {
         .title = "Preferences of participants",
         .note =
             "The first test of preferences: one number for each participant. The share is the mean over "
-            "participants of how often they preferred the first, ties half, with Student's interval; p is "
+            "participants of how often they preferred the first, ties half, with Student's interval; the score "
+            "is that of how strongly, from -2 (clearly the second) to 2 (clearly the first), as the mean "
+            "appropriateness score of GENEA 2023; p is "
             "of Fisher's randomization test of each participant's wins less losses, exact, and Holm's is "
             "adjusted for all pairs of the question. Participants are taken as independent, and as likely "
             "to lean either way if the conditions are equal; votes of one participant need not be "
@@ -253,6 +255,9 @@ Table rater_votes_table(const TableSource& of) {
                     {"share", "mean share", Show::percent},
                     {"share_low", "95 %", Show::percent},
                     {"share_high", "", Show::percent},
+                    {"score", "mean score", Show::two},
+                    {"score_low", "95 %", Show::two},
+                    {"score_high", "", Show::two},
                     {"p", "p", Show::p},
                     {"p_holm", "p (Holm)", Show::p}}};
     for (const VoteResult& result : of.results.votes) {
@@ -268,6 +273,8 @@ Table rater_votes_table(const TableSource& of) {
                        raters.for_second,
                        raters.share};
             append(row, raters.share_95);
+            row.push_back(raters.score);
+            append(row, raters.score_95);
             row.insert(row.end(), {Cell(raters.p), Cell(raters.holm_p)});
             table.rows.push_back(std::move(row));
         }

@@ -57,9 +57,11 @@ struct RaterVotes {
     std::size_t for_second = 0;
     double share = 0;  // mean share of the first: wins, and half of the ties, among all votes
     std::optional<Interval>
-        share_95;       // by Student's t, cut at 0 and 1; none of one participant, or where all have the same
-    double p = 1;       // sign_flip_test of wins less losses
-    double holm_p = 1;  // among all pairs of the question
+        share_95;      // by Student's t, cut at 0 and 1; none of one participant, or where all have the same
+    double score = 0;  // mean strength of the votes for the first, in [-2, 2], over the means of participants
+    std::optional<Interval> score_95;  // as share_95, cut at -2 and 2
+    double p = 1;                      // sign_flip_test of wins less losses
+    double holm_p = 1;                 // among all pairs of the question
 };
 
 // Votes between two conditions.

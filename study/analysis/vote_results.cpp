@@ -45,25 +45,34 @@ Ballot ballot_of(const Preferences& preferences, const std::vector<std::size_t>&
     return ballot;
 }
 
+std::optional<Interval> cut(const std::optional<Interval>& interval, double least, double most) {
+    if (!interval) return std::nullopt;
+    return Interval{std::max(least, interval->low), std::min(most, interval->high)};
+}
+
 RaterVotes rater_votes_of(const Ballot& ballot) {
     std::vector<int> balances(ballot.participants, 0), votes(ballot.participants, 0);
+    std::vector<int> strengths(ballot.participants, 0);
     for (const Vote& vote : ballot.votes) {
         const int strength = vote.first == 0 ? vote.strength : -vote.strength;
         balances[vote.participant] += (strength > 0) - (strength < 0);
+        strengths[vote.participant] += strength;
         ++votes[vote.participant];
     }
     RaterVotes result{.p = sign_flip_test(balances)};
-    std::vector<double> shares;
+    std::vector<double> shares, scores;
     for (std::size_t i = 0; i < balances.size(); ++i) {
         result.for_first += balances[i] > 0;
         result.even += balances[i] == 0;
         result.for_second += balances[i] < 0;
         shares.push_back(0.5 + 0.5 * balances[i] / votes[i]);
+        scores.push_back(1.0 * strengths[i] / votes[i]);
     }
-    const Summary summary = summarize(shares);
-    result.share = summary.mean;
-    if (summary.mean_95)
-        result.share_95 = Interval{std::max(0.0, summary.mean_95->low), std::min(1.0, summary.mean_95->high)};
+    const Summary of_shares = summarize(shares), of_scores = summarize(scores);
+    result.share = of_shares.mean;
+    result.share_95 = cut(of_shares.mean_95, 0, 1);
+    result.score = of_scores.mean;
+    result.score_95 = cut(of_scores.mean_95, -2, 2);
     return result;
 }
 

@@ -135,6 +135,10 @@ TEST(ComputeResults, CountsWinsSidesAndReasons) {
     EXPECT_EQ(pair.raters.for_second, 1u);
     EXPECT_NEAR(pair.raters.share, (1 + 0.25 + 1) / 3, 1e-12);
     EXPECT_EQ(pair.raters.share_95->high, 1);
+    // Their means are 1.5, -0.5 and 2; Student's interval of three so different ones, 1 +- 3.3, is cut.
+    EXPECT_NEAR(pair.raters.score, 1, 1e-12);
+    EXPECT_EQ(pair.raters.score_95->low, -2);
+    EXPECT_EQ(pair.raters.score_95->high, 2);
     EXPECT_DOUBLE_EQ(pair.raters.p, 0.75);
     // 4 + 2 + 1 + 4 of these and 1 + 2 for the other.
     EXPECT_DOUBLE_EQ(pair.share.share, 11.0 / 14);
