@@ -50,7 +50,7 @@ const std::map<std::string, HeadTurn> kHeadTurns = {
 const char* const kFaceHelp = "A face for the motion: action units, head turns, gaze [the motion's own]";
 const char* const kFaceGainHelp = "Show action units stronger or weaker, such as 12=1.3,1=1.5 [1]";
 const char* const kFaceHeadHelp =
-    "The face's head turns replace the body's, are added to them, or are left out [replace]";
+    "The face's head turns are added to the body's, are left out, or replace them [replace]";
 
 std::string times(std::size_t count) {
     return count == 1 ? "once" : format("{} times", count);

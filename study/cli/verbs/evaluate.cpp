@@ -238,8 +238,7 @@ void add_metric_options(CLI::App& verb, EvaluationOptions& options) {
                            {{"signed", LagSummary::signed_most},
                             {"absolute", LagSummary::absolute_most},
                             {"mean", LagSummary::mean}},
-                           "TLCC: the largest r of all lags, the largest without its sign, or their mean "
-                           "[signed]");
+                           "TLCC of all lags: the largest |r|, the mean r, or the largest r [signed]");
 }
 
 // What is judged must be there, and a corpus for whatever works on its records.

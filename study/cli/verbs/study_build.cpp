@@ -26,7 +26,7 @@ void add_cluster(CLI::App& verb, StudyBuildCommand& build) {
     const std::string group = "Several machines that share the folder (docs/howto/many-machines.md)";
     CLI::Option* shard = add_shard(
         verb, [&build](const Shard& part) { build.shard = part; },
-        "Render only one part of the clips into the folder, such as 2/8: the second of eight; the same "
+        "Render only one part of the videos into the folder, such as 2/8: the second of eight; the same "
         "command without --shard finds them and lays out the study");
     CLI::Option* slurm = verb.add_flag(
         "--slurm", build.slurm,
@@ -120,8 +120,8 @@ void add_study_build(CLI::App& study, std::optional<Command>& result) {
                               "--sbatch \"--partition=cpu\"");
     verb->add_option("plan", build->plan, "The plan")->type_name("PLAN.json")->required();
     verb->add_option("--out", build->out, "Folder of the study")->type_name("DIR")->required();
-    add_seed(*verb, build->seed, "Decides tokens, sides and orders; keep it secret")->required();
-    verb->add_option("--jobs", build->jobs, "Clips rendered at a time [1]")
+    add_seed(*verb, build->seed, "Decides the names of videos, sides and orders; keep it secret")->required();
+    verb->add_option("--jobs", build->jobs, "Videos rendered at a time [1]")
         ->type_name("N")
         ->check(CLI::Range(1, 256));
     verb->add_flag("--replace", build->replace,

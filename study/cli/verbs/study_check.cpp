@@ -25,7 +25,7 @@ void add_study_check(CLI::App& study, std::optional<Command>& result) {
                 "--again", check->again,
                 "The plan: build the study again, in a folder that is removed, and compare every byte")
             ->type_name("PLAN.json");
-    verb->add_option("--jobs", check->jobs, "Clips rendered at a time [1]")
+    verb->add_option("--jobs", check->jobs, "Videos rendered at a time [1]")
         ->type_name("N")
         ->check(CLI::Range(1, 256))
         ->needs(again);

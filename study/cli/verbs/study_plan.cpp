@@ -151,7 +151,7 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
         ->needs(plan);
     verb->add_option(
             "--effect", command->effect,
-            "The difference to find: Elo of preferences, sd of an answer of ratings [as the plan says; 100, 0.3]")
+            "The difference to find: Elo of preferences, sd of an answer of ratings [the plan's smallest_effect, else 100, 0.3]")
         ->type_name("X");
     verb->add_flag("--json", command->json, "Print the plan with everything filled in instead");
     verb->callback([&result, command] {

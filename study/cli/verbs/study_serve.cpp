@@ -43,7 +43,7 @@ void add_study_serve(CLI::App& study, std::optional<Command>& result) {
     verb->add_option("--database", options.database, "File of the answers [DIR/private/answers.sqlite]")
         ->type_name("F");
     verb->add_option("--operator-token-file", options.token_file,
-                     "Holds the operator's token, 16 letters or more [that of the environment's "
+                     "Holds the operator's token, 16 or more of a-z A-Z 0-9 - _ [that of the environment's "
                      "CHIRONOMIA_OPERATOR_TOKEN, else a random one]")
         ->type_name("F");
     verb->add_option("--timeout", options.timeout_minutes,

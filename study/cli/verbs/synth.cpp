@@ -144,7 +144,8 @@ void add_learned(CLI::App& verb, SynthCommand& command) {
     verb.add_option("--engine", learned.model, "The synthesis system [expressive]")
         ->type_name("expressive|" + join(learned_engines(), "|"))
         ->check(CLI::IsMember(engine_names()));
-    verb.add_option("--checkpoint", learned.checkpoint, "Of the learned engine [the bundled one]")
+    verb.add_option("--checkpoint", learned.checkpoint,
+                    "Of the learned engine [the bundled one; mix-stage has none]")
         ->type_name("C.safetensors")
         ->group(kLearned);
     verb.add_option("--user-face", learned.user_face, "amii: what its partner's face does")
