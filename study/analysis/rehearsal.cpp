@@ -233,6 +233,19 @@ std::vector<double> planted_strengths(const RehearsalJob& job, const StudyKey& k
     return strengths;
 }
 
+// At the end no condition is in question.
+Json answers_at_end(const SimulatedRater& rater, const StudyPages& pages) {
+    SimulatedRater anybody{.key = rater.key,
+                           .random = rater.random,
+                           .strengths = std::vector<double>(rater.strengths.size(), 0),
+                           .leanings = std::vector<double>(rater.leanings.size(), 0)};
+    const KeyPage nothing_shown{.places = {KeyPlace{}}};
+    Json answers = Json::object();
+    for (const Question& question : pages.questionnaire)
+        answers[question.id] = value_of(anybody, question, nothing_shown);
+    return answers;
+}
+
 Json answer_study(SimulatedRater& rater, const StudyPages& pages, std::size_t number) {
     const std::size_t sheet = number % pages.sheets.size();
     Json answers = Json::array();
@@ -247,7 +260,7 @@ Json answer_study(SimulatedRater& rater, const StudyPages& pages, std::size_t nu
             {"finished", kThen},
             {"browser", "none: a simulated rater"},
             {"arrived_with", Json::object()},
-            {"questionnaire", Json::object()},
+            {"questionnaire", answers_at_end(rater, pages)},
             {"answers", answers}};
 }
 

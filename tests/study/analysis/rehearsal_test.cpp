@@ -61,6 +61,30 @@ TEST(RehearseStudy, EveryRaterSaysThatTheyAreSimulated) {
     EXPECT_EQ(answers[5]["sheet"], 1);
 }
 
+// The join, which refuses what fits no question at the end, accepts it.
+TEST(RehearseStudy, AnswersWhatIsAskedAtTheEnd) {
+    const TemporaryFolder folder;
+    write_sample_study({}, folder.path());
+    Json pages = read_json(folder / "public/pages.json");
+    pages["questionnaire"] = Json::parse(R"([
+        {"id": "age", "kind": "number", "text": "?", "least": 18, "most": 80},
+        {"id": "used", "kind": "rating", "text": "?", "points": 5},
+        {"id": "hand", "kind": "choice", "text": "?", "options": [{"id": "l", "text": "L"}, {"id": "r", "text": "R"}]},
+        {"id": "more", "kind": "text", "text": "?", "optional": true}])");
+    write_json(folder / "public/pages.json", pages);
+    const StudyKey key = read_study_key(folder / "private/key.json");
+    write_json(folder / "a.json", rehearse_study({.study = folder.path(), .participants = 20, .seed = 1}));
+    const Dataset data = join_answers(key, read_study_pages(folder / "public/pages.json"),
+                                      read_answers({folder / "a.json"}, key));
+    std::set<Json> ages, hands;
+    for (const Rater& rater : data.raters) {
+        ages.insert(rater.questionnaire.at("age"));
+        hands.insert(rater.questionnaire.at("hand"));
+    }
+    EXPECT_GT(ages.size(), 10u);
+    EXPECT_EQ(hands.size(), 2u);
+}
+
 // The reader, which refuses values off a scale, accepts the answers to all kinds of questions with moved videos.
 TEST(RehearseStudy, AnswersAllKindsOfQuestionsOnTheirScales) {
     const TemporaryFolder folder;
