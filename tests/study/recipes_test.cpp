@@ -58,8 +58,8 @@ json.dump(texts, open(sys.argv[2], "w"))
 // returns how many there are.
 std::size_t parse_commands(std::string script) {
     script = std::regex_replace(script, std::regex(R"(\\\n)"), " ");
-    script =
-        std::regex_replace(script, std::regex(R"(\$\{\{ matrix.part \}\}|\$\(\([A-Z_]+ \+ 1\)\)|\{\})"), "1");
+    script = std::regex_replace(
+        script, std::regex(R"(\$\{\{ (?:matrix.part|secrets.SEED) \}\}|\$\(\([A-Z_]+ \+ 1\)\)|\{\})"), "1");
     static const std::regex kCommand(R"(\bstudy (?:build|check) [^\n]*)");
     std::size_t count = 0;
     for (std::sregex_iterator match(script.begin(), script.end(), kCommand), end; match != end; ++match) {
