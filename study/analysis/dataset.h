@@ -110,8 +110,8 @@ std::string label_of(const Dataset& data, std::vector<std::size_t> conditions);
 // key: where that is A the score is reversed, so that the highest score always means "like the first".
 // `pages`, of the same build, say which questions a pass asks: a note counts those that were left out. They say what
 // a sheet shows: who lacks answers of it has not finished, and a note says so.
-// Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist, or an answer at the end fits
-// no question.
+// Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist, or an answer at the end
+// fits no question.
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                      const std::vector<Respondent>& participants);
 

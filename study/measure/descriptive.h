@@ -15,7 +15,8 @@ struct Interval {
     double high = 0;
 };
 
-// Numbers that are as far apart as this share of the largest of them are the same: sums and means round their last digits.
+// Numbers that differ by at most this share of the largest of them are the same: sums and means round their last
+// digits.
 inline constexpr double kRounding = 1e-12;
 
 struct Summary {

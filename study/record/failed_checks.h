@@ -33,10 +33,10 @@ struct FailedCheck {
 };
 
 // The pages that were failed, in the order of their answers. A check is failed if one of its passes was
-// skipped, or answers a question of that pass otherwise than expected (is_as_expected()); and any page is failed like a check if
-// one of its passes was answered, not skipped, in less than the key's fastest_seconds. A page is failed once,
-// however many of its passes are. Pages for practice are not judged. `answers` have pages and passes that
-// `pages` has, and values that their questions allow.
+// skipped, or answers a question of that pass otherwise than expected (is_as_expected()); and any page is failed like a
+// check if one of its passes was answered, not skipped, in less than the key's fastest_seconds. A page is failed once,
+// however many of its passes are. Pages for practice are not judged. `answers` have pages and passes that `pages` has,
+// and values that their questions allow.
 std::vector<FailedCheck> failed_checks(const StudyKey& key, const StudyPages& pages,
                                        const std::vector<PageAnswer>& answers);
 

@@ -205,8 +205,8 @@ void add_picture(CLI::App& verb, ClipJob& job) {
 void add_drawing(CLI::App& verb, ClipJob& job) {
     add_choice<RendererKind>(
         verb, "--renderer", job.drawing.renderer, renderer_names(),
-        "tiles: on the processor; gl, also called raster: by OpenGL, on a GPU with --gl egl; rays: slower, with soft light "
-        "and real shadows [auto: tiles, or gl with --gl]");
+        "tiles: on the processor; gl, also called raster: by OpenGL, on a GPU with --gl egl; rays: slower, with "
+        "soft light and real shadows [auto: tiles, or gl with --gl]");
     verb.add_option("--samples", job.drawing.samples, "With rays: samples a pixel, 1 to 1024 [16]")
         ->type_name("N")
         ->check(CLI::Range(1, kMostRaySamples));

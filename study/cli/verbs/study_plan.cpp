@@ -149,9 +149,9 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
             "Write a page in the order of OSF's preregistration form; what the plan leaves open is marked")
         ->type_name("OUT.html")
         ->needs(plan);
-    verb->add_option(
-            "--effect", command->effect,
-            "The difference to find: Elo of preferences, sd of an answer of ratings [the plan's smallest_effect, else 100, 0.3]")
+    verb->add_option("--effect", command->effect,
+                     "The difference to find: Elo of preferences, sd of an answer of ratings [the plan's "
+                     "smallest_effect, else 100, 0.3]")
         ->type_name("X");
     verb->add_flag("--json", command->json, "Print the plan with everything filled in instead");
     verb->callback([&result, command] {
