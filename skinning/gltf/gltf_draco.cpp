@@ -2,6 +2,7 @@
 
 #include <draco/compression/decode.h>
 
+#include <array>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -30,18 +31,18 @@ std::unique_ptr<draco::Mesh> decoded_mesh(const GltfFile& file, const Json& view
     refuse(file, format("{} cannot be decoded ({}); the file is broken, get it again", label, fault));
 }
 
-// (points, components) as the accessor stores them; nothing if Draco cannot give them so.
+// (points, components) as the accessor stores them, at most 4 components; nothing if Draco cannot give them so.
 template <typename Number>
 std::optional<Bytes> values_of(const draco::Mesh& mesh, const draco::PointAttribute& attribute,
                                int components) {
     const size_t width = sizeof(Number) * static_cast<size_t>(components);
     Bytes bytes(mesh.num_points() * width);
-    Number values[16];
+    std::array<Number, 4> values;
     for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
         if (!attribute.ConvertValue<Number>(attribute.mapped_index(point),
-                                            static_cast<std::int8_t>(components), values))
+                                            static_cast<std::int8_t>(components), values.data()))
             return std::nullopt;
-        std::memcpy(&bytes[point.value() * width], values, width);
+        std::memcpy(&bytes[point.value() * width], values.data(), width);
     }
     return bytes;
 }
@@ -68,7 +69,7 @@ std::optional<Bytes> values_as(int type, const draco::Mesh& mesh, const draco::P
 
 int components_of(const std::string& type) {
     if (type == "SCALAR") return 1;
-    return type.starts_with("VEC") && type.size() == 4 ? type[3] - '0' : 0;
+    return type == "VEC2" || type == "VEC3" || type == "VEC4" ? type[3] - '0' : 0;
 }
 
 class DracoPrimitive {
