@@ -250,7 +250,8 @@ Vec3 reflectance_in(const tinygltf::ExtensionMap& extensions) {
     const auto ior = extensions.find(kIor);
     if (ior != extensions.end()) {
         const float index = number_in(ior->second, "ior", 1.5);
-        reflectance = Vec3(index > 0 ? (index - 1) * (index - 1) / ((index + 1) * (index + 1)) : 1);
+        const float amplitude = index > 0 ? (index - 1) / (index + 1) : 1;
+        reflectance = Vec3(amplitude * amplitude);
     }
     const auto specular = extensions.find(kSpecular);
     if (specular != extensions.end()) {

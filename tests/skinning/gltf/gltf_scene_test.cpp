@@ -432,9 +432,12 @@ TEST(ReadGltfScene, ReadsWhatIsMirroredStraightOn) {
         return Json{{"extensions", {{"KHR_materials_ior", ior}, {"KHR_materials_specular", specular}}}};
     };
     const Json none = Json::object();
-    file.json["materials"] = {none, with({{"ior", 1.45}}, none), with(none, {{"specularFactor", 0}}),
+    file.json["materials"] = {none,
+                              with({{"ior", 1.45}}, none),
+                              with(none, {{"specularFactor", 0}}),
                               with(none, {{"specularFactor", 0.5}, {"specularColorFactor", {1, 2, 0.5}}}),
-                              with({{"ior", 0}}, {{"specularColorFactor", {0.5, 1, 3}}})};
+                              with({{"ior", 0}}, {{"specularColorFactor", {0.5, 1, 3}}}),
+                              with({{"ior", 1e30}}, none)};
     const Avatar scene = read(file);
     const auto near = [&](std::size_t material, const Vec3& reflectance) {
         for (int c = 0; c < 3; ++c)
@@ -445,6 +448,7 @@ TEST(ReadGltfScene, ReadsWhatIsMirroredStraightOn) {
     near(2, Vec3(0));
     near(3, {0.02f, 0.04f, 0.01f});
     near(4, {0.5f, 1, 1});
+    near(5, Vec3(1));
     EXPECT_THAT(scene.humanoid_notes, Not(Contains(HasSubstr("is not read"))));
 }
 
