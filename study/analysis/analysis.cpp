@@ -143,10 +143,14 @@ void remove_old_tables(const Files& files, const fs::path& folder) {
     std::set<std::string> tables = {"battles", "elo_samples", "questionnaire"};
     for (const char* rule : {"strict", "lenient"}) {
         const Json results = last.value(rule, Json::object());
+        if (!results.is_object()) continue;
         for (const auto& [table, rows] : results.items()) tables.insert(table);
     }
     for (const std::string& table : tables) {
-        if (!files.contains(table + ".csv")) fs::remove(folder / (table + ".csv"));
+        const fs::path file = table + ".csv";
+        // Whoever wrote the last analysis may name nothing outside of the folder.
+        if (file == file.filename() && !files.contains(file) && fs::is_regular_file(folder / file))
+            fs::remove(folder / file);
     }
 }
 

@@ -190,7 +190,8 @@ TEST(AnalyseCli, LeavesWhatWasThereIfItCannotWriteAll) {
 }
 
 // Answers elsewhere are analysed, but not into a folder that holds others.
-// The second answers have no votes, as nobody counts; a table of somebody else stays.
+// The second answers have no votes, as nobody counts; a table of somebody else stays, and so does a file elsewhere that
+// somebody wrote into the earlier analysis.
 TEST(AnalyseCli, LeavesNoTableOfAnEarlierAnalysis) {
     const TemporaryFolder folder;
     ASSERT_EQ(rehearse(folder).exit_code, 0);
@@ -202,6 +203,11 @@ TEST(AnalyseCli, LeavesNoTableOfAnEarlierAnalysis) {
     ASSERT_EQ(analyse().exit_code, 0);
     ASSERT_TRUE(std::filesystem::exists(folder / "results/preferences.csv"));
     write_text(folder / "results/mine.csv", "kept\n");
+    write_text(folder / "elsewhere.csv", "kept\n");
+    Json last = read_json(folder / "results/analysis.json");
+    last["strict"]["../elsewhere"] = last["strict"]["preferences"];
+    last["lenient"] = 3;
+    write_json(folder / "results/analysis.json", last);
     Json answers = read_json(folder / "answers.json");
     for (Json& one : answers) one["answers"] = Json::array();
     write_json(folder / "answers.json", answers);
@@ -211,6 +217,7 @@ TEST(AnalyseCli, LeavesNoTableOfAnEarlierAnalysis) {
         EXPECT_FALSE(std::filesystem::exists(folder / "results" / table)) << table;
     EXPECT_TRUE(std::filesystem::exists(folder / "results/participants.csv"));
     EXPECT_TRUE(std::filesystem::exists(folder / "results/mine.csv"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "elsewhere.csv"));
 }
 
 TEST(AnalyseCli, WritesNoResultsAmongAnswers) {
