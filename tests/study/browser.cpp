@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <map>
+#include <thread>
 
 #include "core/text.h"
 
@@ -29,6 +31,10 @@ namespace {
              "--autoplay-policy=no-user-gesture-required", ("--user-data-dir=" + profile).c_str(),
              "about:blank", nullptr);
     ::_exit(127);
+}
+
+Json evaluation_of(const std::string& script) {
+    return {{"expression", script}, {"awaitPromise", true}, {"returnByValue", true}, {"userGesture", true}};
 }
 
 }  // namespace
@@ -62,6 +68,12 @@ Browser::~Browser() {
 }
 
 Json Browser::call(const std::string& method, const Json& parameters) {
+    const Json answer = exchange(method, parameters);
+    EXPECT_FALSE(answer.contains("error")) << answer.dump();
+    return answer.value("result", Json::object());
+}
+
+Json Browser::exchange(const std::string& method, const Json& parameters) {
     Json message = {{"id", ++last_call_}, {"method", method}, {"params", parameters}};
     if (!session_.empty()) message["sessionId"] = session_;
     const std::string text = message.dump() + '\0';
@@ -81,31 +93,33 @@ Json Browser::call(const std::string& method, const Json& parameters) {
             unread_.append(block.data(), static_cast<std::size_t>(got));
             continue;
         }
-        const Json answer = Json::parse(unread_.substr(0, end));
+        Json answer = Json::parse(unread_.substr(0, end));
         unread_.erase(0, end + 1);
-        if (answer.value("id", 0) != last_call_) continue;  // an event
-        EXPECT_FALSE(answer.contains("error")) << answer.dump();
-        return answer.value("result", Json::object());
+        if (answer.value("id", 0) == last_call_) return answer;  // others are events
     }
 }
 
 void Browser::open(const std::string& url) {
     call("Page.navigate", {{"url", url}});
-    wait_for(format("document.readyState === 'complete' && location.href === '{}'", url));
+    EXPECT_TRUE(wait_for(format("document.readyState === 'complete' && location.href.startsWith('{}')", url)))
+        << url;
 }
 
 Json Browser::evaluate(const std::string& script) {
-    const Json answer = call(
-        "Runtime.evaluate",
-        {{"expression", script}, {"awaitPromise", true}, {"returnByValue", true}, {"userGesture", true}});
+    const Json answer = call("Runtime.evaluate", evaluation_of(script));
     EXPECT_FALSE(answer.contains("exceptionDetails")) << script << "\n" << answer.dump();
     return answer.value("result", Json::object()).value("value", Json());
 }
 
 bool Browser::wait_for(const std::string& script) {
-    return evaluate(format("(async () => {{ for (let i = 0; i < 3000; ++i) {{ if ({}) return true; await new "
-                           "Promise((done) => setTimeout(done, 10)); }} return false; }})()",
-                           script)) == true;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (std::chrono::steady_clock::now() < end) {
+        // No value if the page is loaded anew meanwhile, or misses what the script names.
+        const Json answer = exchange("Runtime.evaluate", evaluation_of(format("Boolean({})", script)));
+        if (answer.value(Json::json_pointer("/result/result/value"), Json()) == true) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
 }
 
 void Browser::press(const std::string& key) {

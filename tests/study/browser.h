@@ -27,7 +27,7 @@ class Browser {
     // Fails the test if it throws.
     Json evaluate(const std::string& script);
 
-    // Waits until the expression is true, at most 30 s; false if it never is.
+    // Waits until the expression is true, at most 30 s, also while pages load; false if it never is.
     bool wait_for(const std::string& script);
 
     // Presses and releases a key: "1", "Enter", " ", "Tab", "ArrowRight".
@@ -37,6 +37,9 @@ class Browser {
     void resize(int width, int height);
 
   private:
+    // The whole answer, also of a call that failed.
+    Json exchange(const std::string& method, const Json& parameters);
+    // The result; fails the test if there is none.
     Json call(const std::string& method, const Json& parameters);
 
     pid_t id_ = -1;

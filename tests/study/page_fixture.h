@@ -4,9 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <memory>
-#include <thread>
 
 #include "core/files/files.h"
 #include "core/text.h"
@@ -138,20 +136,11 @@ class PageFixture : public ::testing::Test {
     void wait_for_section(const std::string& id) {
         wait_for(format("!document.getElementById('{}').hidden", id));
     }
-    // The same over pages that load again: a script that waits in the page would end with it.
-    void wait_over_reloads(const std::string& script) {
-        bool holds = false;
-        for (int i = 0; i < 300 && !holds; ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-            holds = evaluate(format("document.readyState === 'complete' && {}", script)) == true;
-        }
-        ASSERT_TRUE(holds) << script << "\n" << evaluate("document.body.innerText");
-    }
     // Clicks on what loads the page again, and waits until that is done.
     void click_and_reload(const std::string& selector) {
         evaluate("window.isOld = true");
         click(selector);
-        wait_over_reloads("window.isOld === undefined");
+        wait_for("document.readyState === 'complete' && window.isOld === undefined");
     }
     void start() {
         click("#start");

@@ -194,7 +194,7 @@ TEST_F(PageAndServer, AskThoseAgainWhoseAnswersWereDeleted) {
     testing::walk_study(*browser_, url_ + "?p=ada", first);
     withdraw_elsewhere();
     reload("?p=ada");
-    wait_over_reloads("!document.getElementById('consent').hidden");
+    wait_for_section("consent");
     EXPECT_EQ(evaluate("localStorage.length"), 0);
     EXPECT_EQ(stored(), Json::array());
     testing::walk_study(*browser_, url_ + "?p=ada", prefers(true));
