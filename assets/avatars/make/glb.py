@@ -98,6 +98,8 @@ def _primitive(glb, surface, material, strongest):
         attributes["TANGENT"] = glb.accessor(np.round(surface.tangents * 127), "VEC4", BYTE, "i1", False, 34962, True)
     if surface.uvs is not None:
         attributes["TEXCOORD_0"] = glb.accessor(surface.uvs, "VEC2", FLOAT, "<f4", False, 34962)
+    if surface.colours is not None:
+        attributes["COLOR_0"] = glb.accessor(np.round(surface.colours * 255), "VEC3", UBYTE, "u1", False, 34962, True)
     assert len(surface.points) < 65536
     primitive = {
         "attributes": attributes,
