@@ -190,7 +190,7 @@ SHARED vec3 seen(vec3 base, float metal, Lit lit, vec3 glow) {
     return base * (1.0f - metal) * lit.diffuse + lit.mirrored + glow;
 }
 
-// Khronos PBR Neutral: base colours stay as they are, highlights roll off without a change of hue.
+// Tone mapping, Khronos PBR Neutral: base colours stay as they are, highlights roll off without a change of hue.
 SHARED vec3 neutral_tone(vec3 colour) {
     const float start = 0.8f - 0.04f;
     const float room = 1.0f - start;

@@ -21,9 +21,9 @@ struct LandmarkTrack {
     Vec3 at(size_t frame, Landmark landmark) const { return points[frame][static_cast<size_t>(landmark)]; }
 };
 
-// Takes away what cannot be in one frame: of landmarks of the body that lie in one place, within 5 mm, though
-// they are the ends of a bone, the shoulders, the hips, or a limb's root and end. A pair loses both, a limb
-// its outer end; they are not seen there. A frame in which all points are in one place shows nothing.
+// Some landmarks cannot lie in one place (within 5 mm): the two shoulders, the two hips, the ends of a bone, and the
+// root and the end of a limb. In frames where they do, both shoulders or both hips count as not seen, and of a bone or
+// limb its outer end. In a frame with all points in one place nothing is seen.
 KeypointTrack without_coincident(KeypointTrack keypoints, size_t frames);
 
 // A landmark that is not seen for a while goes straight from its last place to its next; before the first and

@@ -10,7 +10,8 @@
 namespace chironomia {
 
 // Parts as rigs name them. The same word means different parts in different rigs: the "shoulder" of Mixamo is
-// a clavicle, that of SMPL is the upper arm; such words have a role of their own, and the hierarchy decides.
+// a clavicle, that of SMPL is the upper arm; such words have a role of their own, and the hierarchy decides
+// (find_humanoid(), humanoid_map.h).
 enum class Role {
     none,
     hips,

@@ -20,7 +20,8 @@ enum class Check {
     sign_flip,    // a bone swings from before the body to behind it, or back, between two frames
     frozen_hand,  // the fingers stand still to each other, to the last digit, while the hand travels
     t_pose,       // both arms stretched out sideways and still, or in one frame alone
-    turn_jump,    // a part turns against its neighbour between two frames (skinning/fit/posture_checks.h)
+    // Of these, skinning/fit/posture_checks.h finds all but the last.
+    turn_jump,    // a part turns against its neighbour between two frames
     trunk_twist,  // the shoulders are turned too far against the hips
     foot_slide,   // a foot slides while it stands
     hover,        // both feet stay above the floor

@@ -1,4 +1,4 @@
-// How much participants agree, as tables.
+// How much participants agree (study/measure/agreement.h computes it), as tables.
 #pragma once
 
 #include "study/analysis/table_source.h"

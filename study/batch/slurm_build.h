@@ -13,7 +13,7 @@ namespace chironomia::study {
 
 struct SlurmOptions {
     std::filesystem::path plan;
-    std::size_t parts = 64;  // tasks of the array, at most; fewer if there are fewer videos
+    std::size_t parts = 64;  // shards, each a task of the array, at most; fewer if there are fewer videos
     std::string time{};      // of a task, as sbatch --time understands it; empty: the cluster's own limit
     std::string more{};      // more options of sbatch, as a shell reads them
 };

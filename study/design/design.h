@@ -41,13 +41,13 @@ struct Design {
 // How the conditions of a page get their places.
 enum class SideRule {
     fixed,     // as the groups are listed, on every page
-    per_page,  // drawn for each page, the same on all sheets: one place, or places that share one video
+    per_page,  // drawn for each page, the same on all sheets: of one place, or of places in one video
     mirror,    // as per_page, and every other sheet swaps left and right; the middle of three stays
     rotate,    // any place: rows of Williams' design, so that each condition stands at each place and beside
                // each other equally often
 };
 
-// As the key of a study has them: "fixed", "none" (per_page), "mirror", "rotate".
+// As the key of a study has them: "fixed", "none" (per_page: no sheet changes them), "mirror", "rotate".
 const char* to_text(SideRule sides);
 
 struct DesignShape {
@@ -56,7 +56,7 @@ struct DesignShape {
     SideRule sides = SideRule::per_page;
     std::vector<std::size_t> block_of_clip = {};      // empty: one block
     bool each_clip_once = false;                      // a sheet shows one of the groups of each clip
-    std::optional<std::size_t> pages_per_sheet = {};  // none: all of the block, or all of its clips
+    std::optional<std::size_t> pages_per_sheet = {};  // none: all of the block, or one of each clip
     std::optional<std::size_t> sheets = {};           // none: full_sheets(), at most kMostSheets
 };
 

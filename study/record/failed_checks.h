@@ -14,8 +14,8 @@ namespace chironomia::study {
 
 // One pass of one page, as a participant answered it.
 struct PageAnswer {
-    std::size_t page = 0;  // of the key
-    std::size_t pass = 0;
+    std::size_t page = 0;            // of the key
+    std::size_t pass = 0;            // which showing of the page it was, StudyPage::passes
     std::vector<std::size_t> order;  // places of the key's page from left to right as shown; of one video
                                      // that shows all {0} is enough
     Json values;                     // {question id: value}; empty if skipped
@@ -32,11 +32,11 @@ struct FailedCheck {
     double fastest = 0;  // not 0: the page was answered in less [s]
 };
 
-// The pages that were failed, in the order of their answers. A check is failed if one of its passes was
-// skipped, or answers a question of that pass otherwise than expected (is_as_expected()); and any page is failed like a
-// check if one of its passes was answered, not skipped, in less than the key's fastest_seconds. A page is failed once,
-// however many of its passes are. Pages for practice are not judged. `answers` have pages and passes that `pages` has,
-// and values that their questions allow.
+// The pages that were failed, in the order of their answers. A check is failed if one of its passes was skipped, or
+// answers a question of that pass otherwise than expected (is_as_expected(), answer_values.h); and any page is failed
+// like a check if one of its passes was answered, not skipped, in less than the key's fastest_seconds. A page is failed
+// once, however many of its passes are. Pages for practice are not judged. `answers` have pages and passes that `pages`
+// has, and values that their questions allow.
 std::vector<FailedCheck> failed_checks(const StudyKey& key, const StudyPages& pages,
                                        const std::vector<PageAnswer>& answers);
 

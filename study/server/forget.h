@@ -1,4 +1,5 @@
-// Deletes a participant: from the database, from copies of it, and from files of answers.
+// `study forget`: the operator deletes a participant from the database, from copies of it, and from files of answers.
+// Who withdraws on the page is deleted by ParticipantSessions::withdraw().
 #pragma once
 
 #include <cstddef>

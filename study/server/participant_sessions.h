@@ -45,6 +45,7 @@ class ParticipantSessions {
         Reply reply;
         std::string name;  // who is gone; empty: nobody
     };
+    // Deletes the one who asks, with all answers (AnswerStore::forget).
     Withdrawal withdraw(AnswerStore& store, const Json& body) const;
 
   private:

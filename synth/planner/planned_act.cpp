@@ -6,8 +6,8 @@
 namespace chironomia {
 namespace {
 
-// What the acts around one have set, for the acts in them.
-struct Frame {
+// What a mark sets for the marks inside it.
+struct Enclosing {
     std::size_t end_word = 0;
     LocalManner manner;
 };
@@ -37,15 +37,15 @@ std::size_t word_of(const Mark& mark, const Accents& accents, std::size_t word_c
 
 std::vector<PlannedAct> perform(const Speech& speech, const Accents& accents, const Manner& speaker) {
     std::vector<PlannedAct> acts;
-    std::vector<Frame> frames;
+    std::vector<Enclosing> enclosing;
     for (std::size_t i = 0; i < speech.marks.size(); ++i) {
         const Mark& mark = speech.marks[i];
-        while (!frames.empty() && frames.back().end_word <= mark.first_word) frames.pop_back();
+        while (!enclosing.empty() && enclosing.back().end_word <= mark.first_word) enclosing.pop_back();
         LocalManner manner = mark.manner;
-        const auto around = std::find_if(frames.rbegin(), frames.rend(),
-                                         [&](const Frame& frame) { return frame.end_word >= mark.end_word; });
-        if (around != frames.rend()) manner = merged(around->manner, manner);
-        if (mark.manner != LocalManner{}) frames.push_back({mark.end_word, manner});
+        const auto around = std::find_if(enclosing.rbegin(), enclosing.rend(),
+                                         [&](const Enclosing& one) { return one.end_word >= mark.end_word; });
+        if (around != enclosing.rend()) manner = merged(around->manner, manner);
+        if (mark.manner != LocalManner{}) enclosing.push_back({mark.end_word, manner});
 
         PlannedAct act{.mark = i, .manner = overridden(speaker, manner)};
         act.sets_activation = manner[Expressivity::overall_activation].has_value();

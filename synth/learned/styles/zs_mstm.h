@@ -22,6 +22,7 @@ struct StyleSources {
     bool speech = true, text = true, pose = true;  // pose: with face and dialog acts, where there are some
 };
 
+// A48 and so on: readings of the paper, docs/learned_styles.md.
 struct ZsMstmSize {
     AstSize ast;
     bool shares_ast = false;       // A48: one for content and style
@@ -33,7 +34,7 @@ struct ZsMstmSize {
     std::int64_t hidden = 2048;    // of their feed-forward networks
     double dropout = 0.1;          // in the decoders
     bool has_face = false;         // version 2.0
-    std::int64_t adversary = 512;  // hidden numbers of the discriminator
+    std::int64_t adversary = 512;  // width of the discriminator's hidden layer
     StyleSources sources;
 
     // Numbers of a frame of h_content, and of h_style.
