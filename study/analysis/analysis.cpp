@@ -251,7 +251,11 @@ std::string to_text(const Analysis& analysis) {
     }
     for (const Table& table : all_tables(analysis, analysis.strict)) {
         static const std::set<std::string> kMain = {"scores",
+                                                    "friedman",
+                                                    "repeated_anova",
+                                                    "anova",
                                                     "paired_t",
+                                                    "welch_t",
                                                     "preferences_of_participants",
                                                     "preferences",
                                                     "elo",

@@ -18,8 +18,7 @@ namespace {
 
 // Shown only when they are asked for: a second way to say the same, or what is looked up.
 bool is_detail(const Table& table) {
-    static const std::set<std::string> kDetails = {"welch_t",   "anova",   "fisher_lsd",
-                                                   "questions", "barnard", "intraclass"};
+    static const std::set<std::string> kDetails = {"fisher_lsd", "questions", "barnard", "intraclass"};
     return kDetails.contains(table.id);
 }
 

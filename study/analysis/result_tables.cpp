@@ -76,6 +76,12 @@ void append(Row& row, const MeanTest& test) {
     row.insert(row.end(), {Cell(test.t), Cell(test.df), Cell(test.p), Cell(test.effect)});
 }
 
+// A number of a test; an empty cell if the test could not be made.
+template <typename Test>
+Cell number(const std::optional<Test>& test, double Test::*member) {
+    return test ? std::optional((*test).*member) : std::nullopt;
+}
+
 Table paired_table(const TableSource& of) {
     Table table{
         .id = "paired_t",
@@ -106,19 +112,21 @@ Table welch_table(const TableSource& of) {
         .id = "welch_t",
         .title = "Welch's t",
         .note =
-            "Of the scores of all participants as if no one had rated both; d is over the root of the mean "
-            "variance. Where the same participants rated both, prefer the paired test",
+            "Of pairs that no participant rated both of: the groups are different people; d is over the root of "
+            "the mean variance. Holm's p is adjusted for all such pairs of the question",
         .columns = columns_of_t({{"question", "question"},
                                  {"first", "first"},
                                  {"second", "second"},
                                  {"n_first", "n first", Show::whole},
                                  {"n_second", "n second", Show::whole}})};
+    table.columns.push_back({"p_holm", "p (Holm)", Show::p});
     for (const ScoreResult& result : of.results.scores) {
         for (const CellPair& pair : result.pairs) {
             if (!pair.welch) continue;
             Row row = {of.question(result.question), of.cell(pair.first), of.cell(pair.second),
                        pair.welch->n_first, pair.welch->n_second};
             append(row, *pair.welch);
+            row.push_back(pair.welch_holm_p);
             table.rows.push_back(std::move(row));
         }
     }
@@ -152,25 +160,91 @@ Table wilcoxon_table(const TableSource& of) {
     return table;
 }
 
+Table friedman_table(const TableSource& of) {
+    Table table{
+        .id = "friedman",
+        .title = "Friedman's test of all conditions",
+        .note =
+            "Of the scores of participants who rated all conditions; the others are left out. W is Kendall's, 1 if all "
+            "of them order the conditions alike. Takes participants as independent and no more of scores than their "
+            "order; p is by the distribution of chi squared, which holds for more than 10 participants or so",
+        .columns = {{"question", "question"},
+                    {"conditions", "conditions", Show::whole},
+                    {"n", "n", Show::whole},
+                    {"left_out", "left out", Show::whole},
+                    {"chi_squared", "chi squared", Show::two},
+                    {"df", "df", Show::whole},
+                    {"p", "p", Show::p},
+                    {"w", "W", Show::two}}};
+    for (const ScoreResult& result : of.results.scores) {
+        if (!result.within) continue;
+        Row row = {of.question(result.question), result.cells.size(), result.within->complete,
+                   result.within->incomplete};
+        const std::optional<FriedmanTest>& test = result.within->friedman;
+        row.insert(row.end(), {number(test, &FriedmanTest::chi_squared), number(test, &FriedmanTest::df),
+                               number(test, &FriedmanTest::p), number(test, &FriedmanTest::w)});
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
+Table repeated_anova_table(const TableSource& of) {
+    Table table{
+        .id = "repeated_anova",
+        .title = "Analysis of variance of repeated measures",
+        .note =
+            "One way, of the scores of participants who rated all conditions; the others are left out. p is corrected "
+            "by Greenhouse and Geisser: of F with both degrees of freedom times epsilon, so that the differences of "
+            "two conditions need not vary alike. Takes participants as independent and their scores as normal, as "
+            "means of many answers are",
+        .columns = {{"question", "question"},
+                    {"conditions", "conditions", Show::whole},
+                    {"n", "n", Show::whole},
+                    {"left_out", "left out", Show::whole},
+                    {"f", "F", Show::two},
+                    {"df", "df", Show::whole},
+                    {"df_error", "df error", Show::whole},
+                    {"epsilon", "epsilon", Show::two},
+                    {"p", "p", Show::p},
+                    {"partial_eta_squared", "partial eta squared", Show::two},
+                    {"generalized_eta_squared", "generalized eta squared", Show::two}}};
+    for (const ScoreResult& result : of.results.scores) {
+        if (!result.within) continue;
+        Row row = {of.question(result.question), result.cells.size(), result.within->complete,
+                   result.within->incomplete};
+        const std::optional<RepeatedAnova>& test = result.within->anova;
+        for (const auto member :
+             {&RepeatedAnova::f, &RepeatedAnova::df, &RepeatedAnova::df_error, &RepeatedAnova::epsilon,
+              &RepeatedAnova::p, &RepeatedAnova::partial_eta_squared,
+              &RepeatedAnova::generalized_eta_squared})
+            row.push_back(number(test, member));
+        table.rows.push_back(std::move(row));
+    }
+    return table;
+}
+
 Table anova_table(const TableSource& of) {
-    Table table{.id = "anova",
-                .title = "Analysis of variance",
-                .note =
-                    "One way, of the scores of participants, conditions as groups: takes the scores of one "
-                    "participant for several conditions as those of different people",
-                .columns = {{"question", "question"},
-                            {"groups", "groups", Show::whole},
-                            {"n", "n", Show::whole},
-                            {"f", "F", Show::two},
-                            {"df_between", "df between", Show::whole},
-                            {"df_within", "df within", Show::whole},
-                            {"p", "p", Show::p},
-                            {"mean_square_within", "MS within", Show::three}}};
+    Table table{
+        .id = "anova",
+        .title = "Analysis of variance of independent groups",
+        .note =
+            "One way, of the scores of participants, each of whom rated one condition. Takes participants as "
+            "independent and their scores as normal and as varying alike in all groups",
+        .columns = {{"question", "question"},
+                    {"groups", "groups", Show::whole},
+                    {"n", "n", Show::whole},
+                    {"f", "F", Show::two},
+                    {"df_between", "df between", Show::whole},
+                    {"df_within", "df within", Show::whole},
+                    {"p", "p", Show::p},
+                    {"eta_squared", "eta squared", Show::two},
+                    {"mean_square_within", "MS within", Show::three}}};
     for (const ScoreResult& result : of.results.scores) {
         if (!result.anova) continue;
         const Anova& anova = *result.anova;
-        table.rows.push_back({of.question(result.question), result.anova_cells.size(), anova.n, anova.f,
-                              anova.df_between, anova.df_within, anova.p, anova.mean_square_within});
+        table.rows.push_back({of.question(result.question), result.cells.size(), anova.n, anova.f,
+                              anova.df_between, anova.df_within, anova.p, anova.eta_squared,
+                              anova.mean_square_within});
     }
     return table;
 }
@@ -178,9 +252,7 @@ Table anova_table(const TableSource& of) {
 Table lsd_table(const TableSource& of) {
     Table table{.id = "fisher_lsd",
                 .title = "Fisher's least significant differences",
-                .note =
-                    "After the analysis of variance, which takes the scores of one participant as those of "
-                    "different people; p not adjusted",
+                .note = "After the analysis of variance of independent groups; p not adjusted",
                 .columns = {{"question", "question"},
                             {"first", "first"},
                             {"second", "second"},
@@ -194,8 +266,8 @@ Table lsd_table(const TableSource& of) {
     for (const ScoreResult& result : of.results.scores) {
         if (!result.anova) continue;
         for (const LeastSignificantDifference& pair : result.anova->pairs) {
-            Row row = {of.question(result.question), of.cell(result.anova_cells[pair.first]),
-                       of.cell(result.anova_cells[pair.second]),
+            Row row = {of.question(result.question), of.cell(result.cells[pair.first].cell),
+                       of.cell(result.cells[pair.second].cell),
                        result.cells[pair.first].participants.n + result.cells[pair.second].participants.n,
                        pair.difference};
             append(row, pair.difference_95);
@@ -537,12 +609,26 @@ Table published_table(const TableSource& of) {
 
 std::vector<Table> tables_of(const Dataset& data, const Results& results) {
     const TableSource of{data, results};
-    std::vector<Table> tables = {scores_table(of),  paired_table(of),      wilcoxon_table(of),
-                                 welch_table(of),   anova_table(of),       lsd_table(of),
-                                 factors_table(of), rater_votes_table(of), votes_table(of),
-                                 elo_table(of),     contrasts_table(of),   reasons_table(of),
-                                 right_table(of),   published_table(of),   published_results_table(of),
-                                 choices_table(of), sides_table(of),       alpha_table(of),
+    std::vector<Table> tables = {scores_table(of),
+                                 friedman_table(of),
+                                 repeated_anova_table(of),
+                                 anova_table(of),
+                                 paired_table(of),
+                                 wilcoxon_table(of),
+                                 welch_table(of),
+                                 lsd_table(of),
+                                 factors_table(of),
+                                 rater_votes_table(of),
+                                 votes_table(of),
+                                 elo_table(of),
+                                 contrasts_table(of),
+                                 reasons_table(of),
+                                 right_table(of),
+                                 published_table(of),
+                                 published_results_table(of),
+                                 choices_table(of),
+                                 sides_table(of),
+                                 alpha_table(of),
                                  icc_table(of)};
     std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
     return tables;

@@ -28,10 +28,11 @@ struct CellPair {
     std::size_t second = 0;
     std::size_t both = 0;            // participants who rated both
     std::optional<MeanTest> paired;  // of those
-    std::optional<MeanTest> welch;   // of all participants, as two independent groups
-    std::optional<RankTest> ranks;   // of those who rated both
+    std::optional<RankTest> ranks;   // of those
+    std::optional<MeanTest> welch;   // of two groups of participants, where nobody rated both
     double paired_holm_p = 1;        // of `paired`, among all pairs of the question that somebody rated
     double ranks_holm_p = 1;         // of `ranks`, the same
+    double welch_holm_p = 1;         // of `welch`, among all pairs that nobody rated
 };
 
 struct QuestionPair {
@@ -41,13 +42,22 @@ struct QuestionPair {
     std::optional<MeanTest> paired;
 };
 
+// Whether any cells of a question differ, where participants rated several of three or more. Absent tests could not be
+// made.
+struct WithinTests {
+    std::size_t complete = 0;    // participants who rated every cell: the rows of both tests
+    std::size_t incomplete = 0;  // who did not, and are left out
+    std::optional<FriedmanTest> friedman;
+    std::optional<RepeatedAnova> anova;
+};
+
 struct ScoreResult {
     std::size_t question = 0;
     Interval range;  // of the scale, or of what was answered
     std::vector<CellResult> cells;
     std::vector<CellPair> pairs;
-    std::vector<std::size_t> anova_cells;  // the groups of the analysis of variance
-    std::optional<Anova> anova;            // of the participants' scores
+    std::optional<WithinTests> within;  // of the participants' scores
+    std::optional<Anova> anova;         // of the same, where each participant rated one cell
 };
 
 // Votes between two conditions, summed for each participant.

@@ -90,22 +90,40 @@ CellPair compare(const Means& first, const Means& second) {
     const Paired paired = pair_up(first, second);
     return {.both = paired.first.size(),
             .paired = paired_t(paired.first, paired.second),
-            .welch = welch_t(values_of(first), values_of(second)),
-            .ranks = wilcoxon_signed_rank(paired.first, paired.second)};
+            .ranks = wilcoxon_signed_rank(paired.first, paired.second),
+            .welch = paired.first.empty() ? welch_t(values_of(first), values_of(second)) : std::nullopt};
 }
 
-// Pairs whose test could not be made, as all differences are the same, were to be tested too: they count with p = 1.
+// Of the pairs that somebody rated, or of those that nobody did. Pairs whose test could not be made, as all differences
+// are the same, were to be tested too: they count with p = 1.
 template <typename Test>
-void adjust(std::vector<CellPair>& pairs, std::optional<Test> CellPair::*test, double CellPair::*holm_p) {
+void adjust(std::vector<CellPair>& pairs, bool rated, std::optional<Test> CellPair::*test,
+            double CellPair::*holm_p) {
     std::vector<double> p;
     for (const CellPair& pair : pairs) {
-        if (pair.both > 0) p.push_back(pair.*test ? (pair.*test)->p : 1);
+        if ((pair.both > 0) == rated) p.push_back(pair.*test ? (pair.*test)->p : 1);
     }
     const std::vector<double> adjusted = adjust_holm(p);
     std::size_t next = 0;
     for (CellPair& pair : pairs) {
-        if (pair.both > 0) pair.*holm_p = adjusted[next++];
+        if ((pair.both > 0) == rated) pair.*holm_p = adjusted[next++];
     }
+}
+
+// Over all cells, of the participants who rated each of them.
+WithinTests compare_all(const std::vector<Means>& cells) {
+    std::map<std::size_t, std::vector<double>> scores_of;
+    for (const Means& cell : cells) {
+        for (const auto& [participant, value] : cell) scores_of[participant].push_back(value);
+    }
+    std::vector<std::vector<double>> rows;
+    for (const auto& [participant, scores] : scores_of) {
+        if (scores.size() == cells.size()) rows.push_back(scores);
+    }
+    return {.complete = rows.size(),
+            .incomplete = scores_of.size() - rows.size(),
+            .friedman = friedman_test(rows),
+            .anova = repeated_anova(rows)};
 }
 
 ScoreResult compute_question(const Dataset& data, std::size_t question) {
@@ -129,11 +147,17 @@ ScoreResult compute_question(const Dataset& data, std::size_t question) {
             result.pairs.back().second = cells[j];
         }
     }
-    adjust(result.pairs, &CellPair::paired, &CellPair::paired_holm_p);
-    adjust(result.pairs, &CellPair::ranks, &CellPair::ranks_holm_p);
+    adjust(result.pairs, true, &CellPair::paired, &CellPair::paired_holm_p);
+    adjust(result.pairs, true, &CellPair::ranks, &CellPair::ranks_holm_p);
+    adjust(result.pairs, false, &CellPair::welch, &CellPair::welch_holm_p);
     if (!option_of(data, cells.front()).empty()) return result;
-    result.anova_cells = cells;
-    result.anova = one_way_anova(groups);
+    const bool within = std::any_of(result.pairs.begin(), result.pairs.end(),
+                                    [](const CellPair& pair) { return pair.both > 0; });
+    if (!within) {
+        result.anova = one_way_anova(groups);
+    } else if (cells.size() > 2) {
+        result.within = compare_all(means);
+    }
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -21,6 +22,10 @@ double normal_two_sided(double z) {
 
 double student_t_quantile(double p, double df) {
     return bm::quantile(bm::students_t(df), p);
+}
+
+double chi_squared_upper_tail(double chi_squared, double df) {
+    return bm::cdf(bm::complement(bm::chi_squared(df), chi_squared));
 }
 
 double f_upper_tail(double f, double df_between, double df_within) {

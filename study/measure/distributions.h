@@ -12,6 +12,9 @@ double normal_two_sided(double z);
 // The value that t stays below with chance p, 0 < p < 1.
 double student_t_quantile(double p, double df);
 
+// The chance that chi squared is at least `chi_squared`.
+double chi_squared_upper_tail(double chi_squared, double df);
+
 // The chance that F is at least `f`, and the value that it stays below with chance p.
 double f_upper_tail(double f, double df_between, double df_within);
 double f_quantile(double p, double df_between, double df_within);

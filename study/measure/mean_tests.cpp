@@ -14,6 +14,21 @@ Interval around(double middle, double error, double df) {
     return {middle - half, middle + half};
 }
 
+// Of errors (N, K) whose rows and columns have a mean of 0.
+double greenhouse_geisser(const std::vector<std::vector<double>>& errors) {
+    const std::size_t columns = errors.front().size();
+    double trace = 0, squares = 0;
+    for (std::size_t a = 0; a < columns; ++a) {
+        for (std::size_t b = 0; b < columns; ++b) {
+            double product = 0;
+            for (const std::vector<double>& row : errors) product += row[a] * row[b];
+            squares += product * product;
+            trace += a == b ? product : 0;
+        }
+    }
+    return std::min(1.0, trace * trace / (static_cast<double>(columns - 1) * squares));
+}
+
 }  // namespace
 
 std::optional<MeanTest> paired_t(std::span<const double> first, std::span<const double> second) {
@@ -83,6 +98,7 @@ std::optional<Anova> one_way_anova(std::span<const std::vector<double>> groups) 
                 .df_between = static_cast<double>(groups.size() - 1),
                 .df_within = static_cast<double>(n - groups.size())};
     anova.mean_square_within = within / anova.df_within;
+    anova.eta_squared = between / (between + within);
     anova.f = between / anova.df_between / anova.mean_square_within;
     anova.p = f_upper_tail(anova.f, anova.df_between, anova.df_within);
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -99,6 +115,42 @@ std::optional<Anova> one_way_anova(std::span<const std::vector<double>> groups) 
                                    .p = student_t_two_sided(difference / error, anova.df_within)});
         }
     }
+    return anova;
+}
+
+std::optional<RepeatedAnova> repeated_anova(std::span<const std::vector<double>> rows) {
+    if (rows.size() < 2) return std::nullopt;
+    const std::size_t columns = rows.front().size();
+    assert(columns > 1);
+    const auto n = static_cast<double>(rows.size()), k = static_cast<double>(columns);
+    std::vector<double> column_means(columns, 0), row_means;
+    double largest = 0;
+    for (const std::vector<double>& row : rows) {
+        assert(row.size() == columns);
+        row_means.push_back(mean_of(row));
+        for (std::size_t j = 0; j < columns; ++j) {
+            column_means[j] += row[j] / n;
+            largest = std::max(largest, std::abs(row[j]));
+        }
+    }
+    const double mean = mean_of(row_means);
+    double of_columns = 0, of_rows = 0, of_errors = 0;
+    for (const double each : column_means) of_columns += n * (each - mean) * (each - mean);
+    for (const double each : row_means) of_rows += k * (each - mean) * (each - mean);
+    std::vector<std::vector<double>> errors(rows.begin(), rows.end());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        for (std::size_t j = 0; j < columns; ++j) {
+            errors[i][j] += mean - row_means[i] - column_means[j];
+            of_errors += errors[i][j] * errors[i][j];
+        }
+    }
+    if (!(std::sqrt(of_errors / (n * k)) > kRounding * largest)) return std::nullopt;
+    RepeatedAnova anova{.n = rows.size(), .df = k - 1, .df_error = (n - 1) * (k - 1)};
+    anova.f = of_columns / anova.df / (of_errors / anova.df_error);
+    anova.epsilon = greenhouse_geisser(errors);
+    anova.p = f_upper_tail(anova.f, anova.epsilon * anova.df, anova.epsilon * anova.df_error);
+    anova.partial_eta_squared = of_columns / (of_columns + of_errors);
+    anova.generalized_eta_squared = of_columns / (of_columns + of_rows + of_errors);
     return anova;
 }
 

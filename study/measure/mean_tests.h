@@ -1,4 +1,5 @@
-// Whether means differ: paired and Welch's t, and the analysis of variance with Fisher's comparisons.
+// Whether means differ: paired and Welch's t, and analyses of variance, of independent groups (with Fisher's
+// comparisons) and of repeated measures.
 #pragma once
 
 #include <cstddef>
@@ -47,10 +48,33 @@ struct Anova {
     double df_within = 0;
     double p = 0;
     double mean_square_within = 0;
+    double eta_squared = 0;                         // SS between / SS of all, in [0, 1]
     std::vector<LeastSignificantDifference> pairs;  // every two groups
 };
 
 // None of fewer than two groups, of an empty group, of as many groups as numbers, or where no group varies.
 std::optional<Anova> one_way_anova(std::span<const std::vector<double>> groups);
+
+struct RepeatedAnova {
+    std::size_t n = 0;  // rows
+    double f = 0;
+    double df = 0;        // K - 1, not corrected
+    double df_error = 0;  // (N - 1) (K - 1), not corrected
+    double epsilon = 1;   // Greenhouse and Geisser's, in [1 / (K - 1), 1]; 1: sphericity holds
+    double p = 0;         // of F with both degrees of freedom times epsilon
+    double partial_eta_squared = 0;
+    double generalized_eta_squared = 0;
+};
+
+// One-way analysis of variance of repeated measures: `rows` (N, K) hold the numbers of one participant each, K > 1.
+// F = (SS_columns / df) / (SS_error / df_error), where SS_error is of e_ij = x_ij - mean of row i - mean of column j +
+// mean of all.
+// Greenhouse and Geisser's epsilon is (tr C)^2 / ((K - 1) tr(C C)) of C, the covariance of e, whose eigenvalues are
+// those that R's anova.mlm takes ("Spherical", X = ~1), and one of 0. It never exceeds 1.
+// Partial eta squared is SS_columns / (SS_columns + SS_error); generalized (Olejnik and Algina 2003, Bakeman 2005, as
+// R's MOTE documents it in ges_partial_ss_rm) SS_columns / (SS_columns + SS_rows + SS_error), which may be compared
+// with eta squared of independent groups.
+// None of fewer than two rows, or where all rows have the same differences but for rounding.
+std::optional<RepeatedAnova> repeated_anova(std::span<const std::vector<double>> rows);
 
 }  // namespace chironomia::study

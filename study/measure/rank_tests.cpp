@@ -27,44 +27,84 @@ double exact_p(std::size_t n, std::size_t statistic) {
     return std::min(1.0, 2 * at_most / std::ldexp(1.0, static_cast<int>(n)));
 }
 
+struct Ranks {
+    std::vector<double> of;  // each value, from 1; those that tie share the mean of their ranks
+    double tied = 0;         // sum of t^3 - t over the sizes t of ties
+};
+
+Ranks rank(std::span<const double> values) {
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    Ranks ranks{.of = std::vector<double>(values.size())};
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        while (end < order.size() && values[order[end]] - values[order[begin]] <= kSame) ++end;
+        for (std::size_t i = begin; i < end; ++i)
+            ranks.of[order[i]] = static_cast<double>(begin + end + 1) / 2;
+        const auto count = static_cast<double>(end - begin);
+        ranks.tied += count * (count * count - 1);
+    }
+    return ranks;
+}
+
 }  // namespace
 
 std::optional<RankTest> wilcoxon_signed_rank(std::span<const double> first, std::span<const double> second) {
     assert(first.size() == second.size());
     RankTest test;
-    std::vector<double> differences;
+    std::vector<double> amounts;
+    std::vector<bool> is_above;
     for (std::size_t i = 0; i < first.size(); ++i) {
         const double difference = first[i] - second[i];
         if (std::abs(difference) <= kSame) {
             ++test.same;
         } else {
-            differences.push_back(difference);
+            amounts.push_back(std::abs(difference));
+            is_above.push_back(difference > 0);
         }
     }
-    test.n = differences.size();
+    test.n = amounts.size();
     if (test.n == 0) return std::nullopt;
-    std::sort(differences.begin(), differences.end(),
-              [](double a, double b) { return std::abs(a) < std::abs(b); });
-
-    // Amounts that tie share the mean of their ranks; each such group takes from the variance.
-    double above = 0, tied = 0;
-    for (std::size_t begin = 0, end = 0; begin < test.n; begin = end) {
-        while (end < test.n && std::abs(differences[end]) - std::abs(differences[begin]) <= kSame) ++end;
-        const auto count = static_cast<double>(end - begin);
-        const double rank = static_cast<double>(begin + end + 1) / 2;
-        for (std::size_t i = begin; i < end; ++i) above += differences[i] > 0 ? rank : 0;
-        tied += count * (count * count - 1);
-    }
+    const Ranks ranks = rank(amounts);
+    double above = 0;
+    for (std::size_t i = 0; i < test.n; ++i) above += is_above[i] ? ranks.of[i] : 0;
     const auto n = static_cast<double>(test.n);
     test.statistic = std::min(above, n * (n + 1) / 2 - above);
-    test.exact = test.n <= kMostExact && test.same == 0 && tied == 0;
+    test.exact = test.n <= kMostExact && test.same == 0 && ranks.tied == 0;
     if (test.exact) {
         test.p = exact_p(test.n, static_cast<std::size_t>(test.statistic));
     } else {
-        const double variance = (n * (n + 1) * (2 * n + 1) - tied / 2) / 24;
+        const double variance = (n * (n + 1) * (2 * n + 1) - ranks.tied / 2) / 24;
         test.p = normal_two_sided((test.statistic - n * (n + 1) / 4) / std::sqrt(variance));
     }
     return test;
+}
+
+std::optional<FriedmanTest> friedman_test(std::span<const std::vector<double>> rows) {
+    if (rows.size() < 2) return std::nullopt;
+    const std::size_t columns = rows.front().size();
+    assert(columns > 2);
+    const auto n = static_cast<double>(rows.size()), k = static_cast<double>(columns);
+    std::vector<double> sums(columns, 0);
+    double tied = 0;
+    for (const std::vector<double>& row : rows) {
+        assert(row.size() == columns);
+        const Ranks ranks = rank(row);
+        for (std::size_t i = 0; i < columns; ++i) sums[i] += ranks.of[i];
+        tied += ranks.tied;
+    }
+    const double untied = 1 - tied / (n * k * (k * k - 1));
+    if (!(untied > 0)) return std::nullopt;
+    // Of the sums' distances from their mean, the same but for rounding.
+    double squares = 0;
+    for (const double sum : sums) squares += (sum - n * (k + 1) / 2) * (sum - n * (k + 1) / 2);
+    const double chi_squared = 12 * squares / (n * k * (k + 1)) / untied;
+    return FriedmanTest{.n = rows.size(),
+                        .chi_squared = chi_squared,
+                        .df = k - 1,
+                        .p = chi_squared_upper_tail(chi_squared, k - 1),
+                        .w = chi_squared / (n * (k - 1))};
 }
 
 std::vector<double> adjust_holm(std::span<const double> p) {

@@ -1,4 +1,4 @@
-// Wilcoxon's signed-rank test of paired numbers, and Holm's correction for many tests.
+// Tests of ranks: Wilcoxon's of paired numbers and Friedman's of several; Holm's correction for many tests.
 #pragma once
 
 #include <cstddef>
@@ -21,6 +21,23 @@ struct RankTest {
 // continuity, as SciPy does. Differences and their amounts that are within 1e-9 of each other are the same.
 // None where no pair differs.
 std::optional<RankTest> wilcoxon_signed_rank(std::span<const double> first, std::span<const double> second);
+
+struct FriedmanTest {
+    std::size_t n = 0;       // rows
+    double chi_squared = 0;  // corrected for ties
+    double df = 0;
+    double p = 0;
+    double w =
+        0;  // Kendall's coefficient of concordance, in [0, 1]; 1: all rows have the columns in one order
+};
+
+// Friedman's test of whether the columns of `rows` (N, K) differ, K > 2. Ranks are within each row; numbers within 1e-9
+// of each other share the mean of their ranks. R_j are the sums of ranks of the columns, t the sizes of ties:
+//   chi squared = (12 / (N K (K + 1)) sum R_j^2 - 3 N (K + 1)) / (1 - sum (t^3 - t) / (N (K^3 - K)))
+// with K - 1 degrees of freedom, and W = chi squared / (N (K - 1)), as SciPy's friedmanchisquare and R's friedman.test
+// compute it. p is that of the distribution of chi squared, which needs many rows (SciPy: more than 10).
+// None of fewer than two rows, or where the numbers of each row are all the same.
+std::optional<FriedmanTest> friedman_test(std::span<const std::vector<double>> rows);
 
 // Holm, "A simple sequentially rejective multiple test procedure", 1979: each p adjusted for all of them.
 std::vector<double> adjust_holm(std::span<const double> p);

@@ -242,8 +242,12 @@ Sentences models(const Source& from) {
     }
     if (asks_scores(plan)) {
         says.push_back(
-            "Scores: for each two conditions the paired t test and Wilcoxon's test of the participants' scores; beside "
-            "them one-way analysis of variance.");
+            "Scores: for each two conditions the paired t test and Wilcoxon's test of the participants' scores.");
+        if (plan.conditions.size() > 2)
+            says.push_back(
+                "Over all conditions, of the participants who rated each of them: Friedman's test with Kendall's W, "
+                "and the analysis of variance of repeated measures with Greenhouse and Geisser's correction and "
+                "partial and generalized eta squared.");
     }
     if (asks(plan, QuestionKind::choice)) says.push_back("Choices: counts of each option.");
     if (!plan.right_answers.empty()) {

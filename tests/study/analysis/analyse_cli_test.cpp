@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <regex>
 
 #include "core/files/files.h"
@@ -126,6 +127,100 @@ TEST(AnalyseCli, ReportsWhatWasAnsweredAtTheEnd) {
     answers[1]["questionnaire"] = 43;
     write_json(folder / "answers.json", answers);
     EXPECT_THAT(analyse().err, HasSubstr("questionnaire: is 43, an object is needed"));
+}
+
+// A study of one video a page. Each row is a rater and holds what they answer to every page of each condition; 0: they
+// saw none of them, and did not finish.
+Outcome analyse_ratings(const TemporaryFolder& folder, const std::vector<std::vector<int>>& rows) {
+    testing::SampleStudy study{.layout = "single", .conditions = Json::array(), .groups = {}, .checks = 0};
+    study.questions = Json::array({{{"id", "natural"}, {"kind", "rating"}, {"text", "?"}, {"points", 7}}});
+    for (const char* condition : {"a", "b", "c"}) {
+        study.conditions.push_back({{"name", condition}});
+        study.groups.push_back({condition});
+    }
+    write_sample_study(study, folder / "study");
+    const Outcome rehearsal = run_chironomia({"study", "rehearse", (folder / "study").string(),
+                                              "--participants", std::to_string(rows.size()), "--seed", "1",
+                                              "--out", (folder / "answers.json").string()});
+    EXPECT_EQ(rehearsal.exit_code, 0) << rehearsal.err;
+    Json answers = read_json(folder / "answers.json");
+    for (std::size_t rater = 0; rater < rows.size(); ++rater) {
+        Json given = Json::array();
+        for (Json& answer : answers[rater]["answers"]) {
+            const int value = rows[rater][std::stoul(answer["page"].get<std::string>(), nullptr, 16) % 3];
+            answer["values"]["natural"] = value;
+            if (value > 0) given.push_back(answer);
+        }
+        answers[rater]["answers"] = given;
+    }
+    write_json(folder / "answers.json", answers);
+    return run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
+                           (folder / "answers.json").string(), "--out", (folder / "out").string()});
+}
+
+// By hand: sums of ranks 3.5, 5.5 and 9, with one tie; sums of squares 26 of conditions, 6 of raters and 4 of errors,
+// all in one direction, so that epsilon is 1 / 2. The fourth rater did not finish, and did not see the last condition.
+TEST(AnalyseCli, TestsAllConditionsWithinThoseWhoRatedAllOfThem) {
+    const TemporaryFolder folder;
+    const Outcome outcome = analyse_ratings(folder, {{1, 3, 4}, {2, 2, 7}, {3, 4, 7}, {5, 1, 0}});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("Friedman's test of all conditions (strict rule)"));
+    EXPECT_THAT(outcome.out, HasSubstr("Analysis of variance of repeated measures (strict rule)"));
+    const Json json = read_json(folder / "out/analysis.json");
+    for (const auto& [rule, left_out] : {std::pair("strict", 0), std::pair("lenient", 1)}) {
+        const Json friedman = json[rule]["friedman"].at(0), anova = json[rule]["repeated_anova"].at(0);
+        for (const Json& test : {friedman, anova}) {
+            EXPECT_EQ(test["conditions"], 3);
+            EXPECT_EQ(test["n"], 3);
+            EXPECT_EQ(test["left_out"], left_out) << rule;
+            EXPECT_EQ(test["df"], 2);
+        }
+        EXPECT_NEAR(friedman["chi_squared"].get<double>(), 62.0 / 11, 1e-9);
+        EXPECT_NEAR(friedman["p"].get<double>(), std::exp(-31.0 / 11), 1e-9);
+        EXPECT_NEAR(friedman["w"].get<double>(), 31.0 / 33, 1e-9);
+        EXPECT_NEAR(anova["f"].get<double>(), 13, 1e-9);
+        EXPECT_EQ(anova["df_error"], 4);
+        EXPECT_NEAR(anova["epsilon"].get<double>(), 0.5, 1e-9);
+        EXPECT_NEAR(anova["p"].get<double>(), 1 - std::sqrt(13.0 / 15),
+                    1e-9);  // of t with 2 degrees of freedom
+        EXPECT_NEAR(anova["partial_eta_squared"].get<double>(), 26.0 / 30, 1e-9);
+        EXPECT_NEAR(anova["generalized_eta_squared"].get<double>(), 26.0 / 36, 1e-9);
+    }
+    for (const char* of_independent_groups : {"anova.csv", "fisher_lsd.csv", "welch_t.csv"})
+        EXPECT_FALSE(std::filesystem::exists(folder / "out" / of_independent_groups));
+}
+
+TEST(AnalyseCli, ShowsThatNobodyRatedAllConditions) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(analyse_ratings(folder, {{1, 3, 0}, {0, 2, 7}, {3, 0, 7}, {2, 5, 0}}).exit_code, 0);
+    EXPECT_THAT(read_text(folder / "out/friedman.csv"),
+                HasSubstr("SIMULATED RATERS,lenient,natural,3,0,4,,,,\n"));
+    EXPECT_THAT(read_text(folder / "out/repeated_anova.csv"),
+                HasSubstr("SIMULATED RATERS,lenient,natural,3,0,4,,,,,,,\n"));
+}
+
+// Each rater saw one condition: groups of 1 and 3, 2 and 6, 5 and 7. The sums of squares are 16 between and 12
+// within them.
+TEST(AnalyseCli, TestsGroupsWhereEachRaterSawOneCondition) {
+    const TemporaryFolder folder;
+    const std::vector<std::vector<int>> rows = {{1, 0, 0}, {3, 0, 0}, {0, 2, 0},
+                                                {0, 6, 0}, {0, 0, 5}, {0, 0, 7}};
+    ASSERT_EQ(analyse_ratings(folder, rows).exit_code, 0);
+    const Json lenient = read_json(folder / "out/analysis.json")["lenient"];
+    const Json anova = lenient["anova"].at(0);
+    EXPECT_EQ(anova["groups"], 3);
+    EXPECT_NEAR(anova["f"].get<double>(), 2, 1e-9);
+    EXPECT_EQ(anova["df_between"], 2);
+    EXPECT_EQ(anova["df_within"], 3);
+    EXPECT_NEAR(anova["eta_squared"].get<double>(), 16.0 / 28, 1e-9);
+    ASSERT_EQ(lenient["welch_t"].size(), 3u);
+    // a against c: t = -4 / sqrt(2) with 2 degrees of freedom, the least of three p.
+    const Json a_c = lenient["welch_t"][1];
+    EXPECT_NEAR(a_c["t"].get<double>(), -4 / std::sqrt(2.0), 1e-9);
+    EXPECT_NEAR(a_c["p_holm"].get<double>(), 3 * a_c["p"].get<double>(), 1e-9);
+    EXPECT_EQ(lenient["fisher_lsd"].size(), 3u);
+    for (const char* within : {"friedman", "repeated_anova", "paired_t", "wilcoxon"})
+        EXPECT_FALSE(lenient.contains(within)) << within;
 }
 
 TEST(AnalyseCli, PrintsJsonAndReadsItsOwnBattles) {

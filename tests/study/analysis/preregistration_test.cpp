@@ -146,6 +146,20 @@ TEST_F(Preregistered, SaysHowNearASliderOfACheckMustBe) {
     EXPECT_THAT(item("Data exclusion")["fixed"].dump(), HasSubstr("A slider may be up to 3 % of its width"));
 }
 
+TEST_F(Preregistered, NamesTestsOfAllConditionsWhereThereAreThree) {
+    Json plan = sample_plan();
+    plan["layout"] = "single";
+    plan["questions"] = {{{"id", "natural"}, {"kind", "rating"}, {"text", "How natural?"}, {"points", 5}}};
+    ASSERT_EQ(preregister(plan).exit_code, 0);
+    EXPECT_THAT(item("Statistical models")["fixed"].dump(), Not(HasSubstr("Friedman")));
+    plan["conditions"].push_back({{"name", "frozen"}, {"from", "ours"}, {"by", "frozen"}});
+    const Outcome outcome = preregister(plan);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(
+        item("Statistical models")["fixed"].dump(),
+        HasSubstr("Over all conditions, of the participants who rated each of them: Friedman's test"));
+}
+
 TEST_F(Preregistered, HasTheSameBytesForAnySeedAndNoneInIt) {
     Json plan = sample_plan();
     plan["preregistration"] = {{"smallest_effect", 200}};

@@ -10,6 +10,7 @@ namespace {
 using testing::expect_interval;
 using testing::kOraclePrecision;
 using testing::numbers;
+using Rows = std::vector<std::vector<double>>;
 
 // Student's own example of 1908, as every textbook prints it: t = 4.06 with 9 degrees of freedom.
 TEST(PairedT, KnowsStudentsSleepers) {
@@ -76,6 +77,7 @@ TEST(OneWayAnova, AgreesWithScipyInEveryPair) {
         const auto anova = one_way_anova(each["groups"].get<std::vector<std::vector<double>>>());
         EXPECT_NEAR(anova->f, each["f"].get<double>(), kOraclePrecision);
         EXPECT_NEAR(anova->p, each["p"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(anova->eta_squared, each["eta_squared"].get<double>(), kOraclePrecision);
         ASSERT_EQ(anova->pairs.size(), each["pairs"].size());
         for (std::size_t i = 0; i < anova->pairs.size(); ++i) {
             EXPECT_NEAR(anova->pairs[i].t, each["pairs"][i]["t"].get<double>(), kOraclePrecision);
@@ -98,6 +100,47 @@ TEST(OneWayAnova, NeedsGroupsThatVary) {
     EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{1}, {2}}));
     EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{1, 1}, {2, 2}}));
     EXPECT_FALSE(one_way_anova(std::vector<std::vector<double>>{{0.1 + 0.2, 0.3}, {2, 2}}));
+}
+
+// By hand: the means of columns are 2, 3 and 7, of rows 3, 4 and 5; the sums of squares 42, 6 and 4. The errors of the
+// three columns are (0, 0, 0), (1, -1, 0) and (-1, 1, 0): one direction alone, so that epsilon is 1 / 2.
+TEST(RepeatedAnova, KnowsAnExampleByHand) {
+    const auto anova = repeated_anova(Rows{{1, 3, 5}, {2, 2, 8}, {3, 4, 8}});
+    EXPECT_EQ(anova->n, 3u);
+    EXPECT_EQ(anova->df, 2);
+    EXPECT_EQ(anova->df_error, 4);
+    EXPECT_NEAR(anova->f, 42.0 / 2 / (4.0 / 4), 1e-12);
+    EXPECT_NEAR(anova->epsilon, 0.5, 1e-12);
+    EXPECT_NEAR(anova->partial_eta_squared, 42.0 / 46, 1e-12);
+    EXPECT_NEAR(anova->generalized_eta_squared, 42.0 / 52, 1e-12);
+}
+
+TEST(RepeatedAnova, AgreesWithR) {
+    for (const Json& each : testing::oracle("repeated")) {
+        const auto anova = repeated_anova(each["rows"].get<Rows>());
+        EXPECT_NEAR(anova->f, each["f"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(anova->epsilon, each["epsilon"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(anova->p, each["p"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(anova->partial_eta_squared, each["partial"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(anova->generalized_eta_squared, each["generalized"].get<double>(), kOraclePrecision);
+    }
+}
+
+// Of two columns it is the paired test: F = t squared, sphericity holds, and both have one p.
+TEST(RepeatedAnova, OfTwoColumnsIsThePairedTest) {
+    const auto anova = repeated_anova(Rows{{1, 3}, {2, 5}, {4, 4}, {3, 7}});
+    const auto t = paired_t(std::vector<double>{1, 2, 4, 3}, std::vector<double>{3, 5, 4, 7});
+    EXPECT_NEAR(anova->f, t->t * t->t, 1e-12);
+    EXPECT_NEAR(anova->epsilon, 1, 1e-12);
+    EXPECT_NEAR(anova->p, t->p, 1e-12);
+}
+
+TEST(RepeatedAnova, NeedsDifferencesThatVary) {
+    EXPECT_FALSE(repeated_anova(Rows{}));
+    EXPECT_FALSE(repeated_anova(Rows{{1, 2, 3}}));
+    EXPECT_FALSE(repeated_anova(Rows{{1, 2, 3}, {2, 3, 4}}));
+    EXPECT_FALSE(repeated_anova(
+        Rows{{1.0 / 3, 2.0 / 3, 0.1 + 0.2}, {4.0 / 3, 5.0 / 3, 1.3}, {1, 4.0 / 3, 29.0 / 30}}));
 }
 
 }  // namespace

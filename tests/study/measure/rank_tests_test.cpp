@@ -54,6 +54,48 @@ TEST(WilcoxonSignedRank, RoundingBreaksNoTies) {
     EXPECT_EQ(thirds->p, whole->p);
 }
 
+using Rows = std::vector<std::vector<double>>;
+
+// Hollander and Wolfe, p. 140: ways to round first base, as the documentation of R's friedman.test prints it.
+TEST(FriedmanTest, KnowsHollanderAndWolfesRunners) {
+    const auto test = friedman_test(testing::oracle("friedman")[0]["rows"].get<Rows>());
+    EXPECT_EQ(test->n, 22u);
+    EXPECT_EQ(test->df, 2);
+    EXPECT_NEAR(test->chi_squared, 11.143, 5e-4);
+    EXPECT_NEAR(test->p, 0.003805, 5e-7);
+}
+
+TEST(FriedmanTest, AgreesWithScipyAndWithKendallsDefinition) {
+    for (const Json& each : testing::oracle("friedman")) {
+        const auto test = friedman_test(each["rows"].get<Rows>());
+        EXPECT_NEAR(test->chi_squared, each["chi_squared"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(test->p, each["p"].get<double>(), kOraclePrecision);
+        EXPECT_NEAR(test->w, each["w"].get<double>(), kOraclePrecision);
+    }
+}
+
+// Everybody has one order: W is 1, with ties too, and chi squared is N (K - 1).
+TEST(FriedmanTest, OfRowsThatAgreeHasTheGreatestCoefficient) {
+    EXPECT_NEAR(friedman_test(Rows{{1, 2, 3}, {4, 5, 9}, {0, 1, 2}})->chi_squared, 6, 1e-12);
+    EXPECT_NEAR(friedman_test(Rows{{1, 1, 3}, {4, 4, 9}})->w, 1, 1e-12);
+}
+
+TEST(FriedmanTest, RoundingBreaksNoTies) {
+    const Rows whole = {{3, 3, 5}, {1, 2, 2}, {4, 1, 1}};
+    Rows rounded = whole;
+    for (std::size_t i = 0; i < rounded.size(); ++i) {
+        for (std::size_t j = 0; j < 3; ++j)
+            rounded[i][j] = rounded[i][j] / 3 + 0.1 + 1e-15 * static_cast<double>(j);
+    }
+    EXPECT_EQ(friedman_test(rounded)->chi_squared, friedman_test(whole)->chi_squared);
+}
+
+TEST(FriedmanTest, NeedsRowsThatOrderSomething) {
+    EXPECT_FALSE(friedman_test(Rows{}));
+    EXPECT_FALSE(friedman_test(Rows{{1, 2, 3}}));
+    EXPECT_FALSE(friedman_test(Rows{{1, 1, 1}, {2, 2, 2}}));
+}
+
 // By hand: 0.01 * 4, then 0.02 * 3, then 0.03 * 2 raised to what came before, and the last alone.
 TEST(AdjustHolm, AdjustsFromTheSmallestUp) {
     const std::vector<double> adjusted = adjust_holm(std::vector<double>{0.03, 0.01, 0.6, 0.02});
