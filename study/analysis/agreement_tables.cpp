@@ -9,6 +9,25 @@ const char* name_of(ValueScale scale) {
 
 }  // namespace
 
+Table cronbach_table(const TableSource& of) {
+    Table table{
+        .id = "cronbach",
+        .title = "Cronbach's alpha",
+        .note =
+            "Of the answers that have all items of the scale, also several of one participant; reversed items "
+            "are turned round. Over all conditions it counts their differences, too: where they differ, it is "
+            "greater than within them",
+        .columns = {{"question", "scale"},
+                    {"condition", "condition"},
+                    {"items", "items", Show::whole},
+                    {"answers", "answers", Show::whole},
+                    {"alpha", "alpha", Show::three}}};
+    for (const ReliabilityResult& result : of.results.reliability)
+        table.rows.push_back({of.question(result.question), result.cell ? of.cell(*result.cell) : "all",
+                              result.items, result.answers, result.alpha});
+    return table;
+}
+
 Table alpha_table(const TableSource& of) {
     Table table{.id = "agreement",
                 .title = "Agreement",

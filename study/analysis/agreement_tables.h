@@ -5,6 +5,7 @@
 
 namespace chironomia::study::analysis {
 
+Table cronbach_table(const TableSource& of);
 Table alpha_table(const TableSource& of);
 Table icc_table(const TableSource& of);
 

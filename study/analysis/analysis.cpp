@@ -140,7 +140,7 @@ void remove_old_tables(const Files& files, const fs::path& folder) {
     if (!fs::exists(folder / "analysis.json")) return;
     const Json last = Json::parse(read_text(folder / "analysis.json"), nullptr, false);
     if (!last.is_object() || last.value("format", Json()) != kAnalysisFormat) return;
-    std::set<std::string> tables = {"battles", "elo_samples", "questionnaire"};
+    std::set<std::string> tables = {"battles", "elo_samples", "questionnaire", "scale_scores"};
     for (const char* rule : {"strict", "lenient"}) {
         const Json results = last.value(rule, Json::object());
         if (!results.is_object()) continue;
@@ -251,6 +251,7 @@ std::string to_text(const Analysis& analysis) {
     }
     for (const Table& table : all_tables(analysis, analysis.strict)) {
         static const std::set<std::string> kMain = {"scores",
+                                                    "cronbach",
                                                     "friedman",
                                                     "repeated_anova",
                                                     "anova",
@@ -277,6 +278,10 @@ void write_analysis(const Analysis& analysis, const fs::path& folder) {
                files);
     add_single(analysis, table_of_answers(analysis.data, analysis.strict.excluded, analysis.lenient.excluded),
                files);
+    if (!analysis.data.scale_answers.empty())
+        add_single(analysis,
+                   table_of_scale_scores(analysis.data, analysis.strict.excluded, analysis.lenient.excluded),
+                   files);
     const Table at_end =
         table_of_questionnaire(analysis.data, analysis.strict.excluded, analysis.lenient.excluded);
     if (!at_end.rows.empty()) add_single(analysis, at_end, files);

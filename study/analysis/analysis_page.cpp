@@ -95,6 +95,7 @@ std::string card(const std::string& number, const std::string& what) {
 
 std::string cards_html(const Analysis& analysis) {
     const Dataset& data = analysis.data;
+    const std::size_t asked = data.questions.size() - data.scales;
     std::size_t passes = 0;
     for (const Rater& rater : data.raters) passes += rater.answered;
     return card(std::to_string(data.raters.size()), "took part") +
@@ -102,7 +103,7 @@ std::string cards_html(const Analysis& analysis) {
            card(std::to_string(analysis.lenient.counted), "counted by the lenient rule") +
            card(std::to_string(passes), "pages answered") +
            card(std::to_string(data.conditions.size()), "conditions") +
-           card(std::to_string(data.questions.size()), data.questions.size() == 1 ? "question" : "questions");
+           card(std::to_string(asked), asked == 1 ? "question" : "questions");
 }
 
 std::string rules_html(const Analysis& analysis) {

@@ -1,6 +1,7 @@
 #include "study/analysis/dataset.h"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "core/error.h"
@@ -293,7 +294,50 @@ bool has_finished(Dataset& data, const StudyPages& pages, const Respondent& part
     return false;
 }
 
-void join_one(Dataset& data, const Joining& join, std::size_t trial) {
+// Answers that no result counts.
+struct Uncounted {
+    std::size_t practised = 0;   // on practice pages
+    std::size_t left_out = 0;    // questions that had to be answered
+    std::size_t incomplete = 0;  // answers without some items of a scale
+};
+
+// Adds the scores of a scale, `question`, of the video or videos that `given` rates.
+void add_scale(Dataset& data, const Scale& scale, std::size_t question, const Joining& join,
+               const std::vector<Score>& given, Uncounted& uncounted) {
+    std::map<std::size_t, std::map<std::size_t, Score>> by_unit;  // and by item
+    for (const Score& score : given) by_unit[score.unit][score.question] = score;
+    for (const auto& [unit, scores] : by_unit) {
+        ScaleAnswer answer{.participant = join.participant, .question = question, .clip = join.page.clip};
+        Score mean;
+        for (std::size_t i = 0; i < scale.items.size(); ++i) {
+            const auto score = scores.find(scale.items[i]);
+            if (score == scores.end()) continue;
+            mean = score->second;
+            answer.items.push_back(
+                scale.reversed[i] ? reversed_value(data.questions[scale.items[i]], mean.value) : mean.value);
+        }
+        if (answer.items.size() < scale.items.size()) {
+            uncounted.incomplete += !answer.items.empty();
+            continue;
+        }
+        answer.cell = mean.cell;
+        mean.question = question;
+        mean.value = mean_of(answer.items);
+        data.scores.push_back(mean);
+        data.scale_answers.push_back(std::move(answer));
+    }
+}
+
+void add_scales(Dataset& data, const Joining& join, std::size_t scores_before, Uncounted& uncounted) {
+    const std::vector<Score> given(data.scores.begin() + static_cast<std::ptrdiff_t>(scores_before),
+                                   data.scores.end());
+    for (std::size_t i = 0; i < join.key.scales.size(); ++i)
+        add_scale(data, join.key.scales[i], join.key.questions.size() + i, join, given, uncounted);
+}
+
+void join_one(Dataset& data, const Joining& join, std::size_t trial, Uncounted& uncounted) {
+    uncounted.left_out += count_left_out(join);
+    const std::size_t scores_before = data.scores.size();
     Rater& rater = data.raters[join.participant];
     ++rater.answered;
     rater.skipped += join.answer.skipped;
@@ -307,13 +351,8 @@ void join_one(Dataset& data, const Joining& join, std::size_t trial) {
         add_value(data, join, q, value);
         add_judged(data, join, q, value);
     }
+    add_scales(data, join, scores_before, uncounted);
 }
-
-// Answers that no result counts.
-struct Uncounted {
-    std::size_t practised = 0;  // on practice pages
-    std::size_t left_out = 0;   // questions that had to be answered
-};
 
 struct ParticipantSource {
     const StudyKey& key;
@@ -346,8 +385,7 @@ void join_participant(Dataset& data, const ParticipantSource& of, Uncounted& unc
                            .pass = pass_of(of, answer),
                            .answer = answer,
                            .participant = data.raters.size() - 1};
-        uncounted.left_out += count_left_out(join);
-        join_one(data, join, trial);
+        join_one(data, join, trial, uncounted);
         seconds.push_back(answer.seconds);
     }
     Rater& rater = data.raters.back();
@@ -356,14 +394,56 @@ void join_participant(Dataset& data, const ParticipantSource& of, Uncounted& unc
     if (!seconds.empty()) rater.median_seconds = percentile_of_sorted(seconds, 0.5);
 }
 
+// The item whose answers go against the others most: often one that was not said to be reversed.
+void note_contrary_item(Dataset& data, const Scale& scale, std::size_t question) {
+    std::vector<std::vector<double>> answers;
+    for (const ScaleAnswer& answer : data.scale_answers) {
+        if (answer.question == question) answers.push_back(answer.items);
+    }
+    double lowest = 0;
+    std::size_t contrary = 0;
+    for (std::size_t i = 0; i < scale.items.size(); ++i) {
+        double sum = 0, of_rest = 0, products = 0;
+        for (const std::vector<double>& items : answers) {
+            const double rest = std::accumulate(items.begin(), items.end(), -items[i]);
+            sum += items[i];
+            of_rest += rest;
+            products += items[i] * rest;
+        }
+        const double covariance = static_cast<double>(answers.size()) * products - sum * of_rest;
+        if (covariance >= lowest) continue;
+        lowest = covariance;
+        contrary = scale.items[i];
+    }
+    if (lowest < 0)
+        data.notes.push_back(format(
+            "Scale {}: answers to \"{}\" go against those to the other items; check which items are reversed "
+            "(\"scales\" in private/key.json).",
+            scale.id, data.questions[contrary].id));
+}
+
 void note_uncounted(Dataset& data, const Uncounted& uncounted) {
     const std::size_t left_out = uncounted.left_out;
     if (left_out > 0)
         data.notes.push_back(format("{} not answered though {} to be.",
                                     left_out == 1 ? "1 question was" : format("{} questions were", left_out),
                                     left_out == 1 ? "it had" : "they had"));
+    if (uncounted.incomplete > 0)
+        data.notes.push_back(format(
+            "{} no score of a scale, because items of it were not answered.",
+            uncounted.incomplete == 1 ? "1 answer has" : format("{} answers have", uncounted.incomplete)));
     if (uncounted.practised > 0)
         data.notes.push_back(format("{} answers on practice pages are not counted.", uncounted.practised));
+}
+
+// As if the mean had been given on a slider.
+Question as_question(const Scale& scale, const std::vector<Question>& questions) {
+    const ScoreRange range = range_of_scores(questions[scale.items.front()]);
+    return {.id = scale.id,
+            .kind = QuestionKind::slider,
+            .text = describe(scale, questions),
+            .least = range.least,
+            .most = range.most};
 }
 
 void check_questionnaire(const StudyPages& pages, const Respondent& participant) {
@@ -394,8 +474,10 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                  .seed = key.seed,
                  .conditions = key.conditions,
                  .questions = key.questions,
+                 .scales = key.scales.size(),
                  .questionnaire = pages.questionnaire,
                  .rules = key.exclusions};
+    for (const Scale& scale : key.scales) data.questions.push_back(as_question(scale, key.questions));
     for (const KeyCondition& condition : key.conditions) data.cells.push_back(condition.name);
     add_cells_of_options(data, key);
     Uncounted uncounted;
@@ -409,6 +491,8 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
         join_participant(data, {key, pages, participant}, uncounted);
     }
     note_uncounted(data, uncounted);
+    for (std::size_t i = 0; i < key.scales.size(); ++i)
+        note_contrary_item(data, key.scales[i], key.questions.size() + i);
     return data;
 }
 

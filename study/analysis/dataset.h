@@ -39,6 +39,15 @@ struct Score {
     double value = 0;
 };
 
+// An answer that has all items of a scale. Its mean is the score.
+struct ScaleAnswer {
+    std::size_t participant = 0;
+    std::size_t question = 0;  // the scale
+    std::size_t cell = 0;
+    std::string clip;
+    std::vector<double> items;  // reversed items turned round
+};
+
 struct Choice {
     std::size_t participant = 0;
     std::size_t question = 0;
@@ -87,7 +96,8 @@ struct Dataset {
     bool simulated = false;
     std::uint64_t seed = 42;
     std::vector<KeyCondition> conditions;
-    std::vector<Question> questions;
+    std::vector<Question> questions;      // and scales after them, as if they were asked
+    std::size_t scales = 0;               // how many these are
     std::vector<Question> questionnaire;  // asked at the end
     std::vector<std::string> cells;       // labels of scores; the first are the conditions
     // Of cells about a ranked option its text: only scores of the same option are compared.
@@ -96,11 +106,14 @@ struct Dataset {
     std::vector<Rater> raters;
     ExclusionRules rules;
     std::vector<Preference> preferences;
-    std::vector<Score> scores;
+    std::vector<Score> scores;  // of scales, too
+    std::vector<ScaleAnswer> scale_answers;
     std::vector<Choice> choices;
     std::vector<JudgedAnswer> judged;
     std::vector<AnswerRow> rows;
     std::vector<std::string> notes;  // what was left out and why
+
+    bool is_scale(std::size_t question) const { return question >= questions.size() - scales; }
 };
 
 // The names of conditions that are shown together, in the order of the plan: "base + ours".

@@ -5,12 +5,17 @@
 #include "core/files/json.h"
 #include "core/text.h"
 #include "study/analysis/simulated_rater.h"
+#include "study/measure/descriptive.h"
 
 namespace chironomia::study::analysis {
 namespace {
 
 std::string counted_or(const std::string& reason) {
     return reason.empty() ? "counted" : reason;
+}
+
+const char* counted_or_excluded(const std::string& reason) {
+    return reason.empty() ? "counted" : "excluded";
 }
 
 }  // namespace
@@ -58,9 +63,29 @@ Table table_of_answers(const Dataset& data, const std::vector<std::string>& stri
     for (const AnswerRow& row : data.rows) {
         table.rows.push_back({data.raters[row.participant].name, row.block, row.trial, to_text(row.kind),
                               row.clip, row.conditions, data.questions[row.question].id, row.value,
-                              row.value_of_places, row.seconds,
-                              strict[row.participant].empty() ? "counted" : "excluded",
-                              lenient[row.participant].empty() ? "counted" : "excluded"});
+                              row.value_of_places, row.seconds, counted_or_excluded(strict[row.participant]),
+                              counted_or_excluded(lenient[row.participant])});
+    }
+    return table;
+}
+
+Table table_of_scale_scores(const Dataset& data, const std::vector<std::string>& strict,
+                            const std::vector<std::string>& lenient) {
+    Table table{.id = "scale_scores",
+                .title = "Scores of scales",
+                .note = "",
+                .columns = {{"participant", ""},
+                            {"clip", ""},
+                            {"condition", ""},
+                            {"scale", ""},
+                            {"score", "", Show::two},
+                            {"strict", ""},
+                            {"lenient", ""}}};
+    for (const ScaleAnswer& answer : data.scale_answers) {
+        table.rows.push_back({data.raters[answer.participant].name, answer.clip, data.cells[answer.cell],
+                              data.questions[answer.question].id, mean_of(answer.items),
+                              counted_or_excluded(strict[answer.participant]),
+                              counted_or_excluded(lenient[answer.participant])});
     }
     return table;
 }

@@ -17,6 +17,10 @@ Table table_of_participants(const Dataset& data, const std::vector<std::string>&
 Table table_of_answers(const Dataset& data, const std::vector<std::string>& strict,
                        const std::vector<std::string>& lenient);
 
+// The scores of scales, one for each answer.
+Table table_of_scale_scores(const Dataset& data, const std::vector<std::string>& strict,
+                            const std::vector<std::string>& lenient);
+
 // The votes in the columns of the leaderboard of GENEA: user, input_code, model_a, model_b (a stood left),
 // winner, is_strong, juiceOptions, juiceOtherReason. The names of simulated users say that they are simulated.
 Table table_of_battles(const Dataset& data);

@@ -48,6 +48,7 @@ Dataset without_excluded(const Dataset& data, const std::vector<std::string>& re
     Dataset kept = data;
     keep(kept.preferences, reasons);
     keep(kept.scores, reasons);
+    keep(kept.scale_answers, reasons);
     keep(kept.choices, reasons);
     keep(kept.judged, reasons);
     return kept;

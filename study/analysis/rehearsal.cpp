@@ -51,11 +51,6 @@ int preference_of(double felt, int answers) {
     return felt > 0 ? 1 + inner : answers - inner;
 }
 
-struct ScoreRange {
-    int least = 0;
-    int most = 0;
-};
-
 int score_at(SimulatedRater& rater, const KeyPage& page, std::size_t place, const ScoreRange& range) {
     const std::size_t condition = page.places[place].condition;
     const double width = range.most - range.least;
@@ -115,10 +110,8 @@ Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& pa
         case QuestionKind::preference:
             return preference_of(feeling(rater, page), static_cast<int>(question.answers.size()));
         case QuestionKind::rating:
-            return rating_of(rater, question, page, {.least = 1, .most = question.points});
         case QuestionKind::slider:
-            return rating_of(rater, question, page,
-                             {.least = question.least.value_or(0), .most = question.most.value_or(100)});
+            return rating_of(rater, question, page, range_of_scores(question));
         case QuestionKind::choice:
             if (question.options.empty()) return by_strength(rater, page).front();
             return question.options[rater.random.below(static_cast<std::uint32_t>(question.options.size()))]
@@ -136,6 +129,14 @@ Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& pa
         }
     }
     return {};
+}
+
+// Who likes a video rates a reversed item low.
+Json reversed_answer(const Question& question, const Json& value) {
+    if (value.is_number()) return std::lround(reversed_value(question, value.get<double>()));
+    Json list = Json::array();
+    for (const Json& each : value) list.push_back(reversed_answer(question, each));
+    return list;
 }
 
 // The expected value, or a wrong one if the rater fails. Where any value is expected (null), the given one stays.
@@ -198,6 +199,7 @@ Json answer_step(SimulatedRater& rater, const Step& step, const StudyPage& shown
     for (const std::size_t number : shown.passes[step.pass].questions) {
         const Question& question = rater.key.questions[number];
         Json value = value_of(rater, question, page);
+        if (is_reversed(rater.key.scales, number)) value = reversed_answer(question, value);
         if (page.kind == PageKind::check && page.expected.contains(question.id))
             value = answer_check(rater, question, page.expected[question.id], value);
         values[question.id] = to_shown(value, question, order, rater.key.layout == Layout::triplet);

@@ -609,27 +609,17 @@ Table published_table(const TableSource& of) {
 
 std::vector<Table> tables_of(const Dataset& data, const Results& results) {
     const TableSource of{data, results};
-    std::vector<Table> tables = {scores_table(of),
-                                 friedman_table(of),
-                                 repeated_anova_table(of),
-                                 anova_table(of),
-                                 paired_table(of),
-                                 wilcoxon_table(of),
-                                 welch_table(of),
-                                 lsd_table(of),
-                                 factors_table(of),
-                                 rater_votes_table(of),
-                                 votes_table(of),
-                                 elo_table(of),
-                                 contrasts_table(of),
-                                 reasons_table(of),
-                                 right_table(of),
-                                 published_table(of),
-                                 published_results_table(of),
-                                 choices_table(of),
-                                 sides_table(of),
-                                 alpha_table(of),
-                                 icc_table(of)};
+    std::vector<Table> tables = {scores_table(of),      cronbach_table(of),
+                                 friedman_table(of),    repeated_anova_table(of),
+                                 anova_table(of),       paired_table(of),
+                                 wilcoxon_table(of),    welch_table(of),
+                                 lsd_table(of),         factors_table(of),
+                                 rater_votes_table(of), votes_table(of),
+                                 elo_table(of),         contrasts_table(of),
+                                 reasons_table(of),     right_table(of),
+                                 published_table(of),   published_results_table(of),
+                                 choices_table(of),     sides_table(of),
+                                 alpha_table(of),       icc_table(of)};
     std::erase_if(tables, [](const Table& table) { return table.rows.empty(); });
     return tables;
 }

@@ -19,6 +19,7 @@ Results compute_results(const Dataset& data, std::vector<std::string> excluded,
     results.choices = compute_choices(data);
     results.right = count_right_answers(data);
     results.published = count_as_published(data);
+    results.reliability = compute_reliability(data);
     results.agreement = compute_agreement(data);
     return results;
 }

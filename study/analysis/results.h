@@ -152,6 +152,15 @@ struct RightResult {
     std::optional<double> published{};  // the share that a paper prints
 };
 
+// Cronbach's alpha of a scale.
+struct ReliabilityResult {
+    std::size_t question = 0;         // the scale
+    std::optional<std::size_t> cell;  // none: over all cells
+    std::size_t items = 0;
+    std::size_t answers = 0;  // that have all items, also several of one participant
+    std::optional<double> alpha;
+};
+
 struct AgreementResult {
     std::size_t question = 0;
     ValueScale scale = ValueScale::ordinal;
@@ -168,6 +177,7 @@ struct Results {
     std::vector<ChoiceResult> choices;
     std::vector<RightResult> right;      // all answers of a question first, then by what is right
     std::vector<RightResult> published;  // the same as the paper of the protocol counts them
+    std::vector<ReliabilityResult> reliability;
     std::vector<AgreementResult> agreement;
 };
 

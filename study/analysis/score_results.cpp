@@ -246,7 +246,8 @@ std::vector<QuestionPair> compare_questions(const Dataset& data) {
     std::vector<QuestionPair> pairs;
     for (std::size_t a = 0; a < data.questions.size(); ++a) {
         for (std::size_t b = a + 1; b < data.questions.size(); ++b) {
-            if (!same_scale(data.questions[a], data.questions[b])) continue;
+            if (data.is_scale(a) != data.is_scale(b) || !same_scale(data.questions[a], data.questions[b]))
+                continue;
             for (const std::size_t cell : cells_of(data, a)) {
                 const Paired paired = pair_up(means_of(data, a, cell), means_of(data, b, cell));
                 if (paired.first.empty()) continue;
@@ -256,6 +257,31 @@ std::vector<QuestionPair> compare_questions(const Dataset& data) {
         }
     }
     return pairs;
+}
+
+std::vector<ReliabilityResult> compute_reliability(const Dataset& data) {
+    std::vector<ReliabilityResult> results;
+    const auto add = [&](std::size_t question, std::optional<std::size_t> cell) {
+        std::vector<std::vector<double>> answers;
+        for (const ScaleAnswer& answer : data.scale_answers) {
+            if (answer.question == question && (!cell || answer.cell == *cell))
+                answers.push_back(answer.items);
+        }
+        results.push_back({.question = question,
+                           .cell = cell,
+                           .items = answers.front().size(),
+                           .answers = answers.size(),
+                           .alpha = cronbach_alpha(answers)});
+    };
+    for (std::size_t scale = data.questions.size() - data.scales; scale < data.questions.size(); ++scale) {
+        const std::vector<std::size_t> cells = cells_of(data, scale);
+        if (cells.empty()) continue;
+        add(scale, std::nullopt);
+        if (cells.size() > 1) {
+            for (const std::size_t cell : cells) add(scale, cell);
+        }
+    }
+    return results;
 }
 
 std::vector<AgreementResult> compute_agreement(const Dataset& data) {

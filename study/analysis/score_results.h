@@ -15,6 +15,9 @@ std::vector<ScoreResult> compute_scores(const Dataset& data);
 // Every two questions with the same scale within each cell, as the thesis compares its factors.
 std::vector<QuestionPair> compare_questions(const Dataset& data);
 
+// Of each scale over all cells, and where there are several also of each.
+std::vector<ReliabilityResult> compute_reliability(const Dataset& data);
+
 std::vector<AgreementResult> compute_agreement(const Dataset& data);
 
 }  // namespace chironomia::study::analysis

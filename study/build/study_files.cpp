@@ -111,6 +111,7 @@ StudyKey key_of_study(const StudyDraft& draft, const std::vector<RecordedVideo>&
                  .shape = shape_of(plan, draft.seed),
                  .secret_names = secret_names(plan),
                  .questions = plan.questions,
+                 .scales = plan.scales,
                  .exclusions = plan.exclusions,
                  .participants = plan.participants.wanted,
                  .videos = key_of_videos(draft, recorded, folder),

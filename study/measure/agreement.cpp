@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <numeric>
 
 #include "core/random.h"
 #include "study/measure/distributions.h"
@@ -235,6 +236,26 @@ std::optional<IntraclassCorrelations> intraclass_correlations(
         result.fixed_rater.value_95 = Interval{(low - 1) / (low + k - 1), (high - 1) / (high + k - 1)};
     }
     return result;
+}
+
+std::optional<double> cronbach_alpha(std::span<const std::vector<double>> answers) {
+    if (answers.size() < 2) return std::nullopt;
+    const std::size_t items = answers.front().size();
+    assert(items > 1);
+    const auto variance = [&](const auto& value_of) {
+        std::vector<double> values;
+        for (const std::vector<double>& answer : answers) values.push_back(value_of(answer));
+        const double sd = *summarize(values).sd;
+        return sd * sd;
+    };
+    double of_items = 0;
+    for (std::size_t i = 0; i < items; ++i)
+        of_items += variance([&](const std::vector<double>& answer) { return answer[i]; });
+    const double of_sum = variance(
+        [](const std::vector<double>& answer) { return std::accumulate(answer.begin(), answer.end(), 0.0); });
+    if (!(of_sum > 0)) return std::nullopt;
+    const auto k = static_cast<double>(items);
+    return k / (k - 1) * (1 - of_items / of_sum);
 }
 
 }  // namespace chironomia::study

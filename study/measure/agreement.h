@@ -1,4 +1,4 @@
-// Agreement of raters: Krippendorff's alpha and intraclass correlations.
+// Agreement of raters: Krippendorff's alpha and intraclass correlations. Agreement of items: Cronbach's alpha.
 #pragma once
 
 #include <cstddef>
@@ -54,5 +54,11 @@ struct IntraclassCorrelations {
 // `ratings` (targets, raters), complete. None of fewer than two targets or raters, or where nothing varies.
 std::optional<IntraclassCorrelations> intraclass_correlations(
     const std::vector<std::vector<double>>& ratings);
+
+// Cronbach's alpha of a scale: `answers` (N, K) hold the K items of each answer, K > 1, reversed items turned round.
+//   alpha = K / (K - 1) (1 - sum of the variances of items / variance of the sum of items)
+// after Cronbach, "Coefficient alpha and the internal structure of tests", 1951, as R's cocron documents it. At most 1;
+// below 0 where items contradict each other. None of fewer than two answers, or where their sums are all the same.
+std::optional<double> cronbach_alpha(std::span<const std::vector<double>> answers);
 
 }  // namespace chironomia::study

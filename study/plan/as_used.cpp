@@ -101,6 +101,7 @@ void add_participants(const Plan& plan, Json& json) {
 
 void add_questions(const Plan& plan, Json& json) {
     for (const Question& question : plan.questions) json["questions"].push_back(to_json(question));
+    if (!plan.scales.empty()) json["scales"] = to_json(plan.scales, plan.questions);
     if (!plan.right_answers.empty()) json["right_answers"] = plan.right_answers;
     for (const PagePass& pass : plan.passes) {
         Json ids = Json::array();

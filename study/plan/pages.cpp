@@ -266,6 +266,27 @@ void read_questions(const JsonValue& whole, Plan& plan) {
     if (const auto rules = whole.find("exclusions")) read_exclusion_rules(*rules, plan);
 }
 
+void read_scales_of_plan(const JsonValue& whole, Plan& plan) {
+    const auto list = whole.find("scales");
+    if (!list) return;
+    plan.scales = read_scales(*list, plan.questions);
+    for (std::size_t i = 0; i < plan.scales.size(); ++i) {
+        const std::vector<std::size_t>& items = plan.scales[i].items;
+        for (const PagePass& pass : plan.passes) {
+            const auto is_asked = [&](std::size_t item) {
+                return std::find(pass.questions.begin(), pass.questions.end(), item) != pass.questions.end();
+            };
+            const auto other = std::find_if(items.begin(), items.end(), [&](std::size_t item) {
+                return is_asked(item) != is_asked(items.front());
+            });
+            if (other == items.end()) continue;
+            list->items(1)[i].at("items").refuse(format(
+                "has \"{}\" and \"{}\", which are asked in different passes; ask all items of a scale in one",
+                plan.questions[items.front()].id, plan.questions[*other].id));
+        }
+    }
+}
+
 void read_texts(const JsonValue& whole, Plan& plan) {
     PlanTexts& texts = plan.texts;
     texts.title = read_public_text(whole.at("title"), plan);

@@ -43,6 +43,7 @@ void read_modes_of_conditions(const JsonValue& whole, Plan& plan);
 void read_clips(const JsonValue& whole, const std::filesystem::path& folder, Plan& plan);
 void read_participants(const JsonValue& whole, const Json& written, Plan& plan);  // without its preset
 void read_questions(const JsonValue& whole, Plan& plan);                          // and passes and checks
+void read_scales_of_plan(const JsonValue& whole, Plan& plan);
 void read_right_answers(const JsonValue& whole, Plan& plan);
 void read_texts(const JsonValue& whole, Plan& plan);
 void read_preregistration(const JsonValue& whole, Plan& plan);

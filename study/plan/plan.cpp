@@ -116,6 +116,7 @@ const std::vector<PlanKeys>& plan_keys() {
                   "question",
                   "answers",
                   "questions",
+                  "scales",
                   "right_answers",
                   "passes",
                   "shuffle_questions",
@@ -158,6 +159,7 @@ const std::vector<PlanKeys>& plan_keys() {
          .keys = {"motion", "hints", "face", "audio", "avatar"},
          .required = {"motion"}},
         {.object = "questions[]", .keys = question_keys(), .required = {"id", "kind", "text"}},
+        {.object = "scales[]", .keys = {"id", "items", "reversed"}, .required = {"id", "items"}},
         {.object = "passes[]", .keys = {"sound", "questions"}, .required = {"questions"}},
         {.object = "checks",
          .keys = {"count", "kinds", "at_beginning", "instruction", "instruction_of_video"},
@@ -223,6 +225,7 @@ Plan read_plan(const Json& written, const fs::path& file) {
     read_clips(whole, folder, plan);
     read_participants(whole, written, plan);
     read_questions(whole, plan);
+    read_scales_of_plan(whole, plan);
     read_right_answers(whole, plan);
     read_texts(whole, plan);
     read_preregistration(whole, plan);

@@ -24,6 +24,7 @@
 #include "study/record/page_kinds.h"
 #include "study/record/pages.h"
 #include "study/record/questions.h"
+#include "study/record/scales.h"
 #include "synth/markup/markup.h"
 
 namespace chironomia::study {
@@ -181,6 +182,7 @@ struct Plan {
     PlanRender render;
     std::vector<PlanClip> clips;
     std::vector<Question> questions;
+    std::vector<Scale> scales{};                          // of `questions`; for the analysis alone
     std::map<std::string, RightAnswers> right_answers{};  // by the id of a question; for the analysis alone
     std::vector<PagePass> passes;
     bool shuffle_questions = false;

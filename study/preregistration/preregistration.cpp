@@ -228,7 +228,12 @@ Sentences measured_variables(const Source& from) {
 
 Sentences indices(const Source& from) {
     if (!asks_scores(from.plan)) return {};
-    return {"The score of a participant for a condition is the mean over what they rated of it."};
+    Sentences says = {"The score of a participant for a condition is the mean over what they rated of it."};
+    for (const Scale& scale : from.plan.scales)
+        says.push_back(format(
+            "Scale {}, of each answer that has all items and analysed like a rating, with Cronbach's alpha: {}",
+            scale.id, describe(scale, from.plan.questions)));
+    return says;
 }
 
 Sentences models(const Source& from) {

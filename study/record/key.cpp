@@ -204,6 +204,7 @@ void write_study_key(const std::filesystem::path& file, const StudyKey& key) {
                  {"secret_names", key.secret_names},
                  {"questions", to_json(key.questions)},
                  {"exclusions", to_json(key.exclusions)}};
+    if (!key.scales.empty()) json["scales"] = to_json(key.scales, key.questions);
     if (!key.preset.empty()) json["preset"] = key.preset;
     json["design"] = design_of(key);
     if (key.participants) json["participants"] = *key.participants;
@@ -233,6 +234,7 @@ StudyKey read_study_key(const std::filesystem::path& file) {
     read_design(whole.at("design"), key);
     key.secret_names = whole.at("secret_names").texts(0);
     key.questions = read_questions(whole.at("questions"), 1);
+    if (const auto scales = whole.find("scales")) key.scales = read_scales(*scales, key.questions);
     key.exclusions = read_exclusions(whole.at("exclusions"));
     read_videos_and_pages(whole, key);
     return key;

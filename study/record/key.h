@@ -16,6 +16,7 @@
 #include "study/record/page_kinds.h"
 #include "study/record/pages.h"
 #include "study/record/questions.h"
+#include "study/record/scales.h"
 
 namespace chironomia::study {
 
@@ -74,6 +75,7 @@ struct StudyKey {
     DesignShape shape;                      // numbers of `clips` and `conditions`
     std::vector<std::string> secret_names;  // that no participant may read
     std::vector<Question> questions;
+    std::vector<Scale> scales;  // of `questions`
     ExclusionRules exclusions;
     std::optional<std::size_t> participants;  // that are wanted
     std::vector<KeyVideo> videos;

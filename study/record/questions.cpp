@@ -42,11 +42,6 @@ QuestionKind read_kind(const JsonValue& value) {
         ->second;
 }
 
-std::string name_of(QuestionKind kind) {
-    return std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& each) { return each.second == kind; })
-        ->first;
-}
-
 std::vector<std::string> read_texts(const JsonValue& list, std::size_t at_least) {
     std::vector<std::string> texts;
     for (const JsonValue& item : list.items(at_least)) {
@@ -59,17 +54,6 @@ std::vector<std::string> read_texts(const JsonValue& list, std::size_t at_least)
         texts.push_back(text);
     }
     return texts;
-}
-
-// An id goes into tables and names of files.
-std::string read_id(const JsonValue& value) {
-    const std::string id = value.text();
-    const bool plain = std::all_of(id.begin(), id.end(), [](unsigned char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-               c == '-';
-    });
-    if (!plain) value.refuse(format("is {}; use letters, digits, - and _", value.shown()));
-    return id;
 }
 
 std::vector<QuestionOption> read_options(const JsonValue& list, std::size_t at_least) {
@@ -143,6 +127,27 @@ void read_choice(const JsonValue& value, Question& question) {
 }
 
 }  // namespace
+
+const std::string& to_text(QuestionKind kind) {
+    return std::find_if(kKinds.begin(), kKinds.end(), [&](const auto& each) { return each.second == kind; })
+        ->first;
+}
+
+ScoreRange range_of_scores(const Question& question) {
+    if (question.kind == QuestionKind::rating) return {.least = 1, .most = question.points};
+    assert(question.kind == QuestionKind::slider);
+    return {.least = question.least.value_or(0), .most = question.most.value_or(100)};
+}
+
+std::string read_id(const JsonValue& value) {
+    const std::string id = value.text();
+    const bool plain = std::all_of(id.begin(), id.end(), [](unsigned char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+               c == '-';
+    });
+    if (!plain) value.refuse(format("is {}; use letters, digits, - and _", value.shown()));
+    return id;
+}
 
 void require_sides(const JsonValue& answers, std::size_t count) {
     if (count == 2 || (count % 2 == 1 && count >= 3 && count <= kMostAnswers)) return;
@@ -222,7 +227,7 @@ Json reasons_json(const Reasons& reasons) {
 }  // namespace
 
 Json to_json(const Question& question) {
-    Json json = {{"id", question.id}, {"kind", name_of(question.kind)}, {"text", question.text}};
+    Json json = {{"id", question.id}, {"kind", to_text(question.kind)}, {"text", question.text}};
     if (question.optional) json["optional"] = true;
     if (!question.answers.empty()) json["answers"] = question.answers;
     if (question.reasons) json["reasons"] = reasons_json(*question.reasons);

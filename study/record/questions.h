@@ -15,6 +15,8 @@ namespace chironomia::study {
 
 enum class QuestionKind { preference, rating, slider, choice, rank, text, number };
 
+const std::string& to_text(QuestionKind kind);  // as plans write it
+
 struct QuestionOption {
     std::string id;
     std::string text;
@@ -43,6 +45,17 @@ struct Question {
     std::optional<int> most;
     std::vector<QuestionOption> options;  // choice, rank; empty: of the videos
 };
+
+struct ScoreRange {
+    int least = 0;
+    int most = 0;
+};
+
+// Of a rating or a slider.
+ScoreRange range_of_scores(const Question& question);
+
+// An id goes into tables and names of files. Throws Error if it has other signs than letters, digits, - and _.
+std::string read_id(const JsonValue& value);
 
 // Throws Error, naming the key, if a question is not as docs/study_files.md says.
 Question read_question(const JsonValue& value);

@@ -37,10 +37,13 @@ const Preset* find_preset(const std::string& name) {
 std::string description_of(const Plan& plan, const Composition& all) {
     std::vector<std::string> questions;
     for (const Question& question : plan.questions) questions.push_back(question.id);
+    std::vector<std::string> scales;
+    for (const Scale& scale : plan.scales) scales.push_back(scale.id);
     const Json used = plan_as_used(plan);
     std::string text =
         labelled_list("layout", {used.at("layout").get<std::string>()}) +
         labelled_list("conditions", condition_names(plan)) + labelled_list("questions", questions) +
+        (scales.empty() ? "" : labelled_list("scales", scales)) +
         labelled_list("clips", {format("{}, and {} for practice", all.judged.size(), all.practice.size())}) +
         labelled_list(
             "pages", {format("{} trials, {} attention checks", all.design.pages.size(), plan.checks.count)}) +

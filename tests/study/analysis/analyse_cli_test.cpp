@@ -223,6 +223,83 @@ TEST(AnalyseCli, TestsGroupsWhereEachRaterSawOneCondition) {
         EXPECT_FALSE(lenient.contains(within)) << within;
 }
 
+using Answers = std::vector<std::vector<std::vector<int>>>;
+
+// Two raters see two clips of ours and of the baseline in turn. The answers of a page are to x, y and z, which goes the
+// other way; 0: left open.
+const Answers kMoods = {{{1, 2, 5}, {3, 3, 3}, {2, 2, 4}, {3, 0, 3}},
+                        {{5, 4, 1}, {3, 4, 2}, {4, 5, 2}, {1, 1, 5}}};
+
+Outcome analyse_scale(const TemporaryFolder& folder, const Json& scale) {
+    testing::SampleStudy study{
+        .layout = "single", .groups = {{"ours"}, {"baseline"}}, .clips = 2, .checks = 0};
+    study.questions = Json::array();
+    for (const char* id : {"x", "y", "z"})
+        study.questions.push_back(
+            {{"id", id}, {"kind", "rating"}, {"text", "?"}, {"points", 5}, {"optional", true}});
+    write_sample_study(study, folder / "study");
+    Json key = read_json(folder / "study/private/key.json");
+    key["scales"] = Json::array({scale});
+    write_json(folder / "study/private/key.json", key);
+    const std::string file = (folder / "answers.json").string();
+    const Outcome rehearsal = run_chironomia({"study", "rehearse", (folder / "study").string(),
+                                              "--participants", "2", "--seed", "1", "--out", file});
+    EXPECT_EQ(rehearsal.exit_code, 0) << rehearsal.err;
+    Json answers = read_json(file);
+    for (std::size_t rater = 0; rater < 2; ++rater) {
+        for (Json& answer : answers[rater]["answers"]) {
+            const auto& given = kMoods[rater][std::stoul(answer["page"].get<std::string>(), nullptr, 16)];
+            answer["values"] = {{"x", given[0]}, {"y", given[1]}, {"z", given[2]}};
+            if (given[1] == 0) answer["values"]["y"] = nullptr;
+        }
+    }
+    write_json(file, answers);
+    return run_chironomia({"study", "analyse", (folder / "study").string(), "--answers", file, "--out",
+                           (folder / "out").string()});
+}
+
+// With z turned round the scores are 4/3, 3, 2 and none of the first rater, 14/3, 11/3, 13/3 and 1 of the second. Of
+// these seven answers the sums of squares are 94/7, 84/7 and 104/7 of items, and 796/7 of their sums.
+TEST(AnalyseCli, ScoresAScaleOfEachAnswerWithCronbachsAlpha) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        analyse_scale(folder, {{"id", "mood"}, {"items", {"x", "y", "z"}}, {"reversed", {"z"}}});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out,
+                HasSubstr("1 answer has no score of a scale, because items of it were not answered."));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("go against")));
+    const std::string scores = read_text(folder / "out/scale_scores.csv");
+    EXPECT_EQ(std::count(scores.begin(), scores.end(), '\n'), 8);
+    EXPECT_THAT(
+        scores,
+        HasSubstr("SIMULATED RATERS,simulated-2,c1,baseline,mood,3.6666666666666665,counted,counted\n"));
+    const Json strict = read_json(folder / "out/analysis.json")["strict"];
+    const Json alpha = strict["cronbach"].at(0);
+    EXPECT_EQ(alpha["condition"], "all");
+    EXPECT_EQ(alpha["items"], 3);
+    EXPECT_EQ(alpha["answers"], 7);
+    EXPECT_NEAR(alpha["alpha"].get<double>(), 771.0 / 796, 1e-9);
+    EXPECT_EQ(strict["cronbach"].at(2)["answers"], 3);
+    // Like a rating: the first rater's means are 5/3 and 3, the second's 9/2 and 7/3.
+    const Json ours = strict["scores"].at(6);
+    EXPECT_EQ(ours["question"], "mood");
+    EXPECT_EQ(ours["answers"], 4);
+    EXPECT_NEAR(ours["mean"].get<double>(), (5.0 / 3 + 9.0 / 2) / 2, 1e-9);
+    EXPECT_EQ(strict["paired_t"].back()["question"], "mood");
+    EXPECT_NEAR(strict["paired_t"].back()["difference"].get<double>(), 5.0 / 12, 1e-9);
+    EXPECT_THAT(read_text(folder / "out/report.html"), HasSubstr("Mean of x, y and z (reversed)."));
+}
+
+TEST(AnalyseCli, SaysWhichItemOfAScaleGoesAgainstTheOthers) {
+    const TemporaryFolder folder;
+    const Outcome outcome = analyse_scale(folder, {{"id", "mood"}, {"items", {"x", "y", "z"}}});
+    EXPECT_THAT(
+        outcome.out,
+        HasSubstr("Scale mood: answers to \"z\" go against those to the other items; check which items are "
+                  "reversed (\"scales\" in private/key.json).\n"));
+    EXPECT_LT(read_json(folder / "out/analysis.json")["strict"]["cronbach"].at(0)["alpha"].get<double>(), 0);
+}
+
 TEST(AnalyseCli, PrintsJsonAndReadsItsOwnBattles) {
     const TemporaryFolder folder;
     ASSERT_EQ(rehearse(folder).exit_code, 0);

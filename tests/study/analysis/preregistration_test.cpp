@@ -160,6 +160,22 @@ TEST_F(Preregistered, NamesTestsOfAllConditionsWhereThereAreThree) {
         HasSubstr("Over all conditions, of the participants who rated each of them: Friedman's test"));
 }
 
+TEST_F(Preregistered, NamesScalesWithTheirItems) {
+    Json plan = sample_plan();
+    plan["layout"] = "single";
+    for (const char* id : {"kind", "friendly", "awful"})
+        plan["questions"].push_back({{"id", id}, {"kind", "rating"}, {"text", "?"}, {"points", 5}});
+    plan["scales"] = {
+        {{"id", "likeability"}, {"items", {"kind", "friendly", "awful"}}, {"reversed", {"awful"}}}};
+    const Outcome outcome = preregister(plan);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("likeability"));
+    EXPECT_THAT(
+        item("Indices")["fixed"].dump(),
+        HasSubstr("Scale likeability, of each answer that has all items and analysed like a rating, with "
+                  "Cronbach's alpha: Mean of kind, friendly and awful (reversed)."));
+}
+
 TEST_F(Preregistered, HasTheSameBytesForAnySeedAndNoneInIt) {
     Json plan = sample_plan();
     plan["preregistration"] = {{"smallest_effect", 200}};

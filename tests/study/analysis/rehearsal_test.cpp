@@ -52,6 +52,31 @@ TEST(RehearseStudy, RatersDifferByTheSpread) {
     EXPECT_LE(of_one_mind(0), 10);
 }
 
+// Both items say that ours is better, of every video of a page, though one of them by low values.
+TEST(RehearseStudy, ReversedItemsOfAScaleAreAnsweredTheOtherWayRound) {
+    const TemporaryFolder folder;
+    SampleStudy study{.questions = Json::array(), .checks = 0};
+    for (const char* id : {"kind", "awful"})
+        study.questions.push_back(
+            {{"id", id}, {"kind", "slider"}, {"text", "?"}, {"least", -50}, {"most", 10}, {"each", true}});
+    write_sample_study(study, folder.path());
+    Json json = read_json(folder / "private/key.json");
+    json["scales"] = {{{"id", "likeability"}, {"items", {"kind", "awful"}}, {"reversed", {"awful"}}}};
+    write_json(folder / "private/key.json", json);
+    write_json(
+        folder / "a.json",
+        rehearse_study({.study = folder.path(), .participants = 40, .strengths = {{"ours", 2}}, .seed = 1}));
+    const StudyKey key = read_study_key(folder / "private/key.json");
+    const Dataset data = join_answers(key, read_study_pages(folder / "public/pages.json"),
+                                      read_answers({folder / "a.json"}, key));
+    double sums[3][2] = {};
+    for (const Score& score : data.scores) sums[score.question][score.cell] += score.value / (40 * 6);
+    EXPECT_GT(sums[0][0] - sums[0][1], 10);
+    EXPECT_LT(sums[1][0] - sums[1][1], -10);
+    for (const std::size_t cell : {0, 1})
+        EXPECT_NEAR(sums[2][cell], (sums[0][cell] + -40 - sums[1][cell]) / 2, 1e-9);
+}
+
 TEST(RehearseStudy, EveryRaterSaysThatTheyAreSimulated) {
     const TemporaryFolder folder;
     write_sample_study({}, folder.path());

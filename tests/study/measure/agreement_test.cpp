@@ -138,5 +138,25 @@ TEST(IntraclassCorrelations, HaveNoIntervalWhereAllTargetsHaveOneMean) {
     EXPECT_TRUE(icc->fixed_rater.value_95);
 }
 
+// By hand: the variances of the items are 1, 1 and 4, that of their sums 4, 8 and 9 is 7.
+TEST(CronbachAlpha, IsOfVariancesOfItemsAndOfTheirSum) {
+    EXPECT_NEAR(*cronbach_alpha(std::vector<std::vector<double>>{{1, 2, 1}, {2, 3, 3}, {3, 1, 5}}), 3.0 / 14,
+                1e-12);
+    EXPECT_NEAR(*cronbach_alpha(std::vector<std::vector<double>>{{1, 1}, {3, 3}, {4, 4}}), 1, 1e-12);
+}
+
+TEST(CronbachAlpha, AgreesWithTheMatrixOfCovariances) {
+    for (const Json& each : testing::oracle("cronbach")) {
+        EXPECT_NEAR(*cronbach_alpha(each["answers"].get<std::vector<std::vector<double>>>()),
+                    each["alpha"].get<double>(), kOraclePrecision);
+    }
+}
+
+TEST(CronbachAlpha, NeedsAnswersThatVary) {
+    EXPECT_FALSE(cronbach_alpha(std::vector<std::vector<double>>{{1, 2}}));
+    EXPECT_FALSE(cronbach_alpha(std::vector<std::vector<double>>{{1, 2}, {1, 2}}));
+    EXPECT_FALSE(cronbach_alpha(std::vector<std::vector<double>>{{1, 2}, {2, 1}})) << "sums are the same";
+}
+
 }  // namespace
 }  // namespace chironomia::study

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <set>
 
 #include "core/files/files.h"
@@ -575,6 +576,74 @@ TEST_F(ReadPlan, RefusesPartnersThatCannotBeShown) {
     EXPECT_THAT(refusal(json), StartsWith("plan.json: render.partner_side: "));
 }
 
+Json plan_with_scale() {
+    Json json = sample_plan();
+    json["layout"] = "single";
+    for (const char* id : {"friendly", "kind", "awful"})
+        json["questions"].push_back({{"id", id}, {"kind", "rating"}, {"text", "?"}, {"points", 5}});
+    json["scales"] = {
+        {{"id", "likeability"}, {"items", {"friendly", "kind", "awful"}}, {"reversed", {"awful"}}}};
+    return json;
+}
+
+TEST_F(ReadPlan, TakesScalesOfQuestions) {
+    const Plan plan = read(plan_with_scale());
+    ASSERT_EQ(plan.scales.size(), 1u);
+    EXPECT_EQ(plan.scales[0].id, "likeability");
+    EXPECT_THAT(plan.scales[0].items, ElementsAre(0, 1, 2));
+    EXPECT_THAT(plan.scales[0].reversed, ElementsAre(false, false, true));
+    EXPECT_EQ(plan_as_used(plan)["scales"], plan_with_scale()["scales"]);
+}
+
+TEST_F(ReadPlan, RefusesScalesWithoutOneScore) {
+    const auto refused = [&](const std::function<void(Json&)>& change) {
+        Json json = plan_with_scale();
+        change(json);
+        return refusal(json);
+    };
+    EXPECT_EQ(refused([](Json& json) {
+                  json["questions"][1] = {{"id", "kind"}, {"kind", "text"}, {"text", "?"}};
+              }),
+              "plan.json: scales[0].items[1]: is \"kind\", which is no rating and no slider; leave it out");
+    EXPECT_EQ(
+        refused([](Json& json) { json["questions"][1]["points"] = 7; }),
+        "plan.json: scales[0].items[1]: is \"kind\", a rating from 1 to 7, but \"friendly\" is a rating from 1 "
+        "to 5; the items of a scale are rated alike");
+    EXPECT_THAT(
+        refused([](Json& json) { json["questions"][2]["each"] = true; }),
+        HasSubstr(
+            "is \"awful\", a rating from 1 to 5, of every video, but \"friendly\" is a rating from 1 to 5; "));
+    EXPECT_THAT(refused([](Json& json) {
+                    json["questions"][2] = {
+                        {"id", "awful"}, {"kind", "slider"}, {"text", "?"}, {"least", 1}, {"most", 5}};
+                }),
+                HasSubstr("is \"awful\", a slider from 1 to 5, but \"friendly\" is a rating from 1 to 5; "));
+    EXPECT_EQ(refused([](Json& json) { json["scales"][0]["items"][2] = "kind"; }),
+              "plan.json: scales[0].items[2]: is \"kind\", which is an item already; name each once");
+    EXPECT_EQ(
+        refused([](Json& json) { json["scales"][0]["id"] = "kind"; }),
+        "plan.json: scales[0].id: \"kind\" is already the id of a question or of a scale; give each its own");
+    EXPECT_THAT(refused([](Json& json) { json["scales"].push_back(json["scales"][0]); }),
+                HasSubstr("scales[1].id: \"likeability\" is already the id of a question or of a scale"));
+    EXPECT_EQ(refused([](Json& json) { json["scales"][0]["id"] = "how kind"; }),
+              "plan.json: scales[0].id: is \"how kind\"; use letters, digits, - and _");
+    EXPECT_THAT(refused([](Json& json) { json["scales"][0]["items"] = {"kind"}; }),
+                HasSubstr("scales[0].items: has 1 entries, at least 2"));
+    EXPECT_THAT(refused([](Json& json) { json["scales"][0]["items"][0] = "freindly"; }),
+                HasSubstr("did you mean \"friendly\"?"));
+    EXPECT_THAT(refused([](Json& json) {
+                    json["scales"][0]["items"] = {"friendly", "kind"};
+                }),
+                HasSubstr("scales[0].reversed[0]: is \"awful\""));
+    EXPECT_EQ(
+        refused([](Json& json) {
+            json["passes"] = {{{"sound", false}, {"questions", {"friendly", "kind"}}},
+                              {{"questions", {"awful"}}}};
+        }),
+        "plan.json: scales[0].items: has \"friendly\" and \"awful\", which are asked in different passes; ask "
+        "all items of a scale in one");
+}
+
 std::set<std::string> as_set(const std::vector<std::string>& names) {
     return {names.begin(), names.end()};
 }
@@ -592,6 +661,7 @@ TEST(PlanSchema, HasTheKeysOfTheReader) {
         {"clips[]", all["clips"]["items"]},
         {"clips[].partner", all["clips"]["items"]["properties"]["partner"]},
         {"questions[]", all["questions"]["items"]},
+        {"scales[]", all["scales"]["items"]},
         {"passes[]", all["passes"]["items"]},
         {"checks", all["checks"]},
         {"exclusions", all["exclusions"]},

@@ -71,6 +71,10 @@ TEST(ReadStudyKey, SaysWhatIsWrong) {
                 HasSubstr("is null, but the page is a check; say which answer it expects"));
     EXPECT_THAT(refusal_of_key([](Json& key) { key["exclusions"]["fastest_seconds"] = "x"; }),
                 HasSubstr("is \"x\", a number of seconds is needed"));
+    EXPECT_THAT(refusal_of_key([](Json& key) {
+                    key["scales"] = {{{"id", "s"}, {"items", {"realism", "realism"}}}};
+                }),
+                HasSubstr("key.json: scales[0].items[0]: is \"realism\", which is no rating and no slider"));
     EXPECT_THAT(refusal_of_key([](Json& key) { key.erase("conditions"); }),
                 HasSubstr("conditions: is missing"));
 }
