@@ -72,13 +72,16 @@ class Inspector {
                    array, found, like, expected));
     }
 
+    // `meet`: they follow each other without gaps, and each lasts. PATS counts in frames, of which its short words
+    // have none.
     void words(const std::vector<CorpusWord>& words, bool meet) const {
         for (std::size_t i = 0; i < words.size(); ++i) {
             const CorpusWord& word = words[i];
             if (word.text.empty()) refuse(format("word {} is empty", i));
-            if (!(word.start >= 0 && word.end > word.start && std::isfinite(word.end))) {
-                refuse(format("word {} \"{}\" lasts from {} to {} s; it must end after it starts", i,
-                              word.text, word.start, word.end));
+            const bool lasts = meet ? word.end > word.start : word.end >= word.start;
+            if (!(word.start >= 0 && lasts && std::isfinite(word.end))) {
+                refuse(format("word {} \"{}\" lasts from {} to {} s; it {}", i, word.text, word.start,
+                              word.end, meet ? "must end after it starts" : "may not end before it starts"));
             }
             if (i == 0) continue;
             const double gap = word.start - words[i - 1].end;

@@ -85,6 +85,18 @@ TEST(Pats, TakesWordsFromPandasOrATableOrTokens) {
     EXPECT_NEAR(of_tokens[2].end, 6 / 15.0, 1e-12);
 }
 
+// PATS counts in frames: in the interval that its own tutorial prints three of 60 words begin and end in the same one.
+TEST(Pats, ReadsWordsThatAreShorterThanAFrame) {
+    const TemporaryFolder folder;
+    fs::copy(kPats, folder / "pats", fs::copy_options::recursive);
+    write_text(folder / "pats/data/processed/oliver/cmu0000025735.words.csv",
+               "word,start_frame,end_frame\nsince,0,3\nit,3,3\nwas,3,6\n");
+    const CorpusIndex corpus = read_corpus_index(folder / "pats");
+    const auto words = read_interval(corpus, corpus.entries.at(1)).words;
+    EXPECT_THAT(texts_of(words), ElementsAre("since", "it", "was"));
+    EXPECT_EQ(words[1].start, words[1].end);
+}
+
 // The tree with another table, and with the words of one interval replaced.
 std::string refusal_of_table(const std::string& table, const std::string& words = "") {
     const TemporaryFolder folder;
@@ -122,7 +134,7 @@ TEST(Pats, RefusesABrokenTableWithItsLine) {
 TEST(Pats, RefusesBrokenWords) {
     EXPECT_THAT(
         refusal_of_table("", "word,start_frame,end_frame\nthe,2,0\n"),
-        HasSubstr("word 0 \"the\" lasts from 0.13333333333333333 to 0 s; it must end after it starts"));
+        HasSubstr("word 0 \"the\" lasts from 0.13333333333333333 to 0 s; it may not end before it starts"));
     EXPECT_THAT(
         refusal_of_table("", "word,start_frame,end_frame\nthe,0,4\nfox,3,5\n"),
         HasSubstr("word 1 \"fox\" starts at 0.2 s, the word before it ends at 0.26666666666666666 s; words "
