@@ -15,10 +15,12 @@ inline std::string first_time_note(double seconds) {
 
 // The time of the first frame if it is late [s]: frames may be numbered from 1, rows begin a little after 0, and times
 // may be dates.
-inline std::optional<double> late_beginning_of(const Motion& motion) {
+inline std::optional<double> late_beginning(double first_time) {
     constexpr double kLate = 0.2, kDay = 86400;  // [s] ours
-    return motion.first_time >= kLate && motion.first_time <= kDay ? std::optional(motion.first_time)
-                                                                   : std::nullopt;
+    return first_time >= kLate && first_time <= kDay ? std::optional(first_time) : std::nullopt;
+}
+inline std::optional<double> late_beginning_of(const Motion& motion) {
+    return late_beginning(motion.first_time);
 }
 
 }  // namespace chironomia

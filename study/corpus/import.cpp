@@ -57,7 +57,13 @@ JoinedDyad join_dyad(const DyadRecording& dyad, const ShotLimits& limits, const 
     std::array<DyadSide, 2> sides;
     for (std::size_t p = 0; p < 2; ++p) {
         sides[p] = {.face = read_dyad_face(dyad.people[p].face), .voice = read_dyad_voice(dyad.people[p])};
-        for (const std::string& note : sides[p].face.notes)
+        const RecordedEnds ends{.first_time = sides[p].face.first_time,
+                                .seen = sides[p].face.seconds(),
+                                .heard = sides[p].voice_seconds()};
+        refuse_late_beginning(dyad.people[p].face, ends);
+        std::vector<std::string> notes = sides[p].face.notes;
+        if (auto note = note_of_ends("the face", ends)) notes.push_back(std::move(*note));
+        for (const std::string& note : notes)
             joined.notes.push_back(format("{}, {}: {}", dyad.id, dyad.participants[p], note));
     }
     const std::size_t frames = common_frames(sides, dyad, where);

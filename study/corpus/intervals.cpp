@@ -58,10 +58,15 @@ Audio sound_in(const Audio& sound, const IntervalFrames& frames) {
                         sound.samples.begin() + sample(frames.last)}};
 }
 
+RecordedEnds ends_of(const Motion& motion, const Audio& sound) {
+    return {.first_time = motion.first_time, .seen = duration(motion), .heard = sound.duration()};
+}
+
 // The frames of the recording that are taken.
 IntervalFrames frames_taken(const IntervalRecording& recording, const Motion& motion, const Audio& sound,
                             const std::string& where) {
     const double pose = duration(motion), heard = sound.duration(), shorter = std::min(pose, heard);
+    refuse_late_beginning(recording.pose, ends_of(motion, sound));
     if (!recording.end && std::abs(pose - heard) > kLooseEnd) {
         throw Error(format(
             "{}: recording \"{}\": its pose lasts {:.2f} s ({} frames at {:g} frames/s) and its sound {:.2f} s, "
@@ -90,6 +95,8 @@ class IntervalCutter {
         TimedWords timed = read_timed_words(recording.words, sound_.duration());
         for (const auto* notes : {&motion_.notes, &timed.notes})
             cut_.notes.insert(cut_.notes.end(), notes->begin(), notes->end());
+        if (auto note = note_of_ends("the pose", ends_of(motion_, sound_)); note && !recording.end)
+            cut_.notes.push_back(std::move(*note));
         if (sound_.rate < kSpectraRate) {
             cut_.notes.push_back(
                 format("sound: {} samples/s, so spectra have nothing above {:g} Hz; give the same rate "

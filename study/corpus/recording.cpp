@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_file.h"
+#include "skinning/signal/late_beginning.h"
 #include "synth/corpus/face_features.h"
 #include "synth/features/contour.h"
 #include "synth/features/opensmile_csv.h"
@@ -47,7 +48,7 @@ Motion read_face(const fs::path& file, std::span<const int> units) {
 }
 
 TrackedValues empty_face(const Motion& motion, std::size_t width) {
-    TrackedValues face{.fps = motion.fps, .width = width};
+    TrackedValues face{.fps = motion.fps, .width = width, .first_time = motion.first_time};
     face.values.resize(motion.frames * width);
     face.confidence = motion.face->confidence;
     face.confidence.resize(motion.frames, 1);
@@ -182,6 +183,25 @@ TrackedValues read_dyad_face(const fs::path& file) {
         put(face, t, 5, std::span(units).subspan(t * kDyadUnits.size(), kDyadUnits.size()));
     }
     return face;
+}
+
+void refuse_late_beginning(const fs::path& file, const RecordedEnds& ends) {
+    const auto& [first, seen, heard] = ends;
+    if (!late_beginning(first) || std::abs(first + seen - heard) >= std::abs(seen - heard)) return;
+    throw Error(format(
+        "{}: its first frame is at {:.2f} s and its last one at {:.2f} s, where the sound of {:.2f} s ends; taken "
+        "from second 0 on all would come {:.2f} s too early. Keep the frames before it (empty, or with "
+        "success 0), or cut sound and words there",
+        file.string(), first, first + seen, heard, first));
+}
+
+std::optional<std::string> note_of_ends(std::string_view what, const RecordedEnds& ends) {
+    constexpr double kNoticed = 0.2;  // [s] ours
+    if (std::abs(ends.seen - ends.heard) < kNoticed) return std::nullopt;
+    return format(
+        "{} lasts {:.2f} s and its sound {:.2f} s; what is over at the end is cut off, so they must begin "
+        "together and have the right rates",
+        what, ends.seen, ends.heard);
 }
 
 RecordedVoice read_talk_voice(const RecordedPerson& person) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "study/corpus/manifest.h"
@@ -20,6 +21,7 @@ struct TrackedValues {
     std::vector<float> values;          // (T, width)
     std::vector<std::uint8_t> success;  // (T) 0: it was not found
     std::vector<float> confidence;      // (T) in [0, 1]
+    double first_time = 0;              // as in Motion [s]
     std::vector<std::string> notes;     // of the reader, each a sentence
 
     std::size_t frames() const { return success.size(); }  // T
@@ -29,6 +31,20 @@ struct TrackedValues {
 // Throw Error as read_motion() does, and if there are no units that the corpus has, no head or no gaze.
 TrackedValues read_talk_face(const std::filesystem::path& file);  // AU1, 2, 4, 5, 6, 7, pose_Rx, Ry, Rz
 TrackedValues read_dyad_face(const std::filesystem::path& file);  // as DyadPerson::face
+
+// How long a face or a pose lasts beside the sound that was recorded with it.
+struct RecordedEnds {
+    double first_time = 0;  // what the file of the face or the pose calls the time of its first frame [s]
+    double seen = 0;        // [s]
+    double heard = 0;       // [s]
+};
+
+// A face or a pose is taken to begin with its sound.
+// Throws Error if it begins late by the times of its own file, and ends with the sound only by these: `file` lacks
+// the frames at the beginning, and all of it would come too early.
+void refuse_late_beginning(const std::filesystem::path& file, const RecordedEnds& ends);
+// Says that they end at different times, of less than a second: a wrong rate does so, too.
+std::optional<std::string> note_of_ends(std::string_view what, const RecordedEnds& ends);
 
 // The voice of a talk at IpuRecord::kSpeechRate, S samples.
 struct RecordedVoice {

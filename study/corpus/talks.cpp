@@ -47,6 +47,9 @@ class TalkCutter {
           encoder_(encoder),
           face_(read_talk_face(talk.person.face)),
           voice_(read_talk_voice(talk.person)) {
+        const RecordedEnds ends{
+            .first_time = face_.first_time, .seen = face_.seconds(), .heard = voice_.seconds()};
+        refuse_late_beginning(talk.person.face, ends);
         if (std::abs(face_.seconds() - voice_.seconds()) > kLooseEnd) {
             throw Error(format(
                 "{}: it lasts {:.2f} s ({} frames at {:.6g} frames/s), and the voice of \"{}\" {:.2f} s; give "
@@ -59,6 +62,7 @@ class TalkCutter {
             words_.push_back({.text = std::move(word.text), .start = word.start, .end = word.end});
         for (const auto* notes : {&face_.notes, &words.notes})
             cut_.notes.insert(cut_.notes.end(), notes->begin(), notes->end());
+        if (auto note = note_of_ends("the face", ends)) cut_.notes.push_back(std::move(*note));
     }
 
     CutTalk run() {

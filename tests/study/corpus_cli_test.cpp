@@ -34,7 +34,7 @@ class CorpusImport : public ::testing::Test {
     CorpusImport() {
         for (const char* face : {"face.csv", "p1.csv", "p2.csv"})
             testing::write_openface(file(face), {.first_lost = 20, .end_lost = 23});
-        testing::write_voice(file("voice.wav"));
+        for (const char* voice : {"voice.wav", "p1.wav", "p2.wav"}) testing::write_voice(file(voice));
         testing::write_timed_words(file("words.csv"));
     }
 
@@ -48,7 +48,7 @@ class CorpusImport : public ::testing::Test {
                 {"words", "words.csv"}};
     }
     static Json person(const std::string& name, const std::string& role) {
-        return {{"participant", name}, {"role", role}, {"face", name + ".csv"}, {"audio", "voice.wav"}};
+        return {{"participant", name}, {"role", role}, {"face", name + ".csv"}, {"audio", name + ".wav"}};
     }
     static Json dyad() {
         return {{"id", "d1"},
@@ -296,6 +296,29 @@ TEST_F(CorpusImport, RefusesATalkWhoseFaceEndsBeforeItsSound) {
         talk_refusal("id", "t1"),
         HasSubstr("face.csv: it lasts 4.00 s (120 frames at 30 frames/s), and the voice of \"t1\" 6.00 s; "
                   "give files that begin and end together"));
+}
+
+// As what is left of a table when the rows in which no face was found are dropped.
+TEST_F(CorpusImport, RefusesAFaceWhoseFirstRowsAreNotThere) {
+    const std::string why =
+        ": its first frame is at 0.60 s and its last one at 6.00 s, where the sound of 6.00 s ends; taken from second "
+        "0 on all would come 0.60 s too early. Keep the frames before it (empty, or with success 0)";
+    testing::write_openface(file("face.csv"), {.first_row = 18});
+    EXPECT_THAT(talk_refusal("id", "t1"), HasSubstr("face.csv" + why));
+    testing::write_openface(file("p2.csv"), {.first_row = 18});
+    EXPECT_THAT(dyad_refusal(dyad()), HasSubstr("p2.csv" + why));
+    // A clock that ran before the recording began.
+    testing::write_openface(file("p2.csv"), {.seconds = 7, .first_row = 30});
+    EXPECT_EQ(import_all("dyads", {dyad()}).exit_code, 0);
+}
+
+TEST_F(CorpusImport, SaysThatFaceAndVoiceEndAtDifferentTimes) {
+    testing::write_openface(file("face.csv"), {.seconds = 5.5});
+    testing::write_openface(file("p1.csv"), {.seconds = 5.5});
+    const std::string note =
+        "the face lasts 5.50 s and its sound 6.00 s; what is over at the end is cut off, so they must begin together";
+    EXPECT_THAT(import_all("talks", {talk()}).err, HasSubstr("t1: " + note));
+    EXPECT_THAT(import_all("dyads", {dyad()}, "dyads").err, HasSubstr("d1, p1: " + note));
 }
 
 TEST_F(CorpusImport, RefusesABrokenManifestWithItsKey) {

@@ -577,6 +577,23 @@ TEST_F(IntervalImport, RefusesAPoseThatDoesNotLastAsLongAsTheSound) {
     EXPECT_THAT(refusal(with("start", 15)), HasSubstr("the part from 15 to 14 s is taken"));
 }
 
+TEST_F(IntervalImport, RefusesAPoseWhoseFirstFramesAreNotThere) {
+    for (int number = 0; number < 15; ++number)
+        fs::remove(file("pose") / format("pose_{:012}_keypoints.json", number));
+    EXPECT_THAT(
+        refusal(recording()),
+        HasSubstr(
+            "pose: its first frame is at 0.60 s and its last one at 14.00 s, where the sound of 14.00 s "
+            "ends; taken from second 0 on all would come 0.60 s too early"));
+}
+
+TEST_F(IntervalImport, SaysThatPoseAndSoundEndAtDifferentTimes) {
+    const std::string note =
+        "the pose lasts 14.58 s and its sound 14.00 s; what is over at the end is cut off";
+    EXPECT_THAT(import_all({with("fps", 24)}).err, HasSubstr("r1: " + note));
+    EXPECT_THAT(import_all({recording()}).err, Not(HasSubstr("what is over")));
+}
+
 TEST_F(IntervalImport, SaysThatWordsLieInSilence) {
     EXPECT_THAT(import_all({recording()}).err, Not(HasSubstr("silent")));
     write_wav(file("muted.wav"), testing::sound_of(kSeconds, 22050, [](double) { return 0.0; }));

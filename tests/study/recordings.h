@@ -22,6 +22,7 @@ struct FaceSpec {
     int first_lost = 0, end_lost = 0;  // frames without a face, whose numbers are nonsense
     double confidence = 0.98;
     std::string without{};  // a column that is left out
+    int first_row = 0;      // rows before it are not in the file
 };
 
 inline constexpr int kUnits[] = {1, 2, 4, 5, 6, 7, 12};
@@ -39,7 +40,7 @@ inline void write_openface(const std::filesystem::path& file, const FaceSpec& sp
     });
     std::string text = "frame, timestamp, confidence, success";
     for (const auto& [name, rise] : columns) text += ", " + name;
-    for (int row = 0; row < std::lround(spec.seconds * spec.fps); ++row) {
+    for (int row = spec.first_row; row < std::lround(spec.seconds * spec.fps); ++row) {
         const bool lost = row >= spec.first_lost && row < spec.end_lost;
         const double time = row / spec.fps;
         text += format("\n{}, {:.3f}, {}, {}", row + 1, time, lost ? 0.1 : spec.confidence, lost ? 0 : 1);

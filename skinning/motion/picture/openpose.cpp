@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "skinning/body/keypoint_layout.h"
 #include "skinning/motion/picture/person_tracker.h"
+#include "skinning/signal/late_beginning.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
@@ -208,7 +209,13 @@ Motion read_openpose(const fs::path& folder, std::optional<double> fps) {
             where, files.size(), first, first + frames - 1));
     }
     FolderReader reader;
-    Motion motion{.source = where, .fps = *fps, .frames = frames, .joints = {}, .keypoints = {}, .notes = {}};
+    Motion motion{.source = where,
+                  .fps = *fps,
+                  .frames = frames,
+                  .joints = {},
+                  .keypoints = {},
+                  .notes = {},
+                  .first_time = static_cast<double>(first) / *fps};
     std::size_t next = first;
     for (const auto& [number, file] : files) {
         for (; next < number; ++next) reader.skip();
@@ -221,6 +228,7 @@ Motion read_openpose(const fs::path& folder, std::optional<double> fps) {
     if (std::all_of(sure.begin(), sure.end(), [](float c) { return c == 0; }))
         throw Error(format("{}: nobody is seen in any of its {} frames", where, frames));
     motion.notes.push_back(format("OpenPose: {}, {} frames", reader.layout(), frames));
+    if (late_beginning_of(motion)) motion.notes.push_back(first_time_note(motion.first_time));
     if (frames > files.size())
         motion.notes.push_back(format("{} frames have no file", frames - files.size()));
     if (reader.tracker().crowded() > 0) {

@@ -74,6 +74,14 @@ TEST(ReadOpenPose, LeavesAFrameWithoutFileEmptyAndSaysSo) {
     EXPECT_THAT(motion.notes, Contains("1 frames have no file"));
 }
 
+TEST(ReadOpenPose, SaysThatItsNumbersBeginLate) {
+    const TemporaryFolder folder;
+    write_frame(folder.path(), 15, {person(100)});
+    const Motion motion = read_openpose(folder.path(), 25);
+    EXPECT_EQ(motion.first_time, 0.6);
+    EXPECT_THAT(motion.notes, Contains("time: the first frame is at 0.6 s, which is second 0 here"));
+}
+
 TEST(ReadOpenPose, KnowsCoco) {
     const TemporaryFolder folder;
     write_frame(folder.path(), 0, {person(100, 0.8, 18)});
