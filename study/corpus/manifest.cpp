@@ -135,8 +135,21 @@ class ManifestReader {
                 .at("participant")
                 .refuse(format("is \"{}\", as the other person is", dyad.participants[1]));
         }
+        refuse_one_voice(people[1], dyad.people);
         dyad.split = split_of(value);
         return dyad;
+    }
+
+    // A model would hear each of them in the other's place.
+    static void refuse_one_voice(const JsonValue& second, const std::array<RecordedPerson, 2>& people) {
+        for (const auto file : {&RecordedPerson::audio, &RecordedPerson::speech}) {
+            const fs::path &a = people[0].*file, &b = people[1].*file;
+            if (a.empty() || b.empty() || fs::canonical(a) != fs::canonical(b)) continue;
+            second.refuse(format(
+                "{} is the voice of the other person, too; give each one's own microphone, or cut a sound that "
+                "has one in each channel: ffmpeg -i both.wav -af \"pan=mono|c0=c0\" first.wav",
+                b.string()));
+        }
     }
 
     IntervalRecording interval_of(const JsonValue& value) {

@@ -321,6 +321,15 @@ TEST_F(CorpusImport, SaysThatFaceAndVoiceEndAtDifferentTimes) {
     EXPECT_THAT(import_all("dyads", {dyad()}, "dyads").err, HasSubstr("d1, p1: " + note));
 }
 
+TEST_F(CorpusImport, RefusesOneVoiceForTwoPeople) {
+    Json changed = dyad();
+    changed["people"][1]["audio"] = "p1.wav";
+    EXPECT_THAT(dyad_refusal(changed),
+                AllOf(HasSubstr("m.json: recordings[0].people[1]: "),
+                      HasSubstr("p1.wav is the voice of the other person, too; give each "
+                                "one's own microphone")));
+}
+
 TEST_F(CorpusImport, RefusesABrokenManifestWithItsKey) {
     EXPECT_THAT(talk_refusal("words", Json()), HasSubstr("m.json: recordings[0].words: is missing; add it"));
     EXPECT_THAT(talk_refusal("word", "words.csv"),
