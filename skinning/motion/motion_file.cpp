@@ -10,6 +10,7 @@
 #include "skinning/gltf/fbx_file.h"
 #include "skinning/gltf/gltf_motion.h"
 #include "skinning/motion/bvh/bvh.h"
+#include "skinning/motion/face/arkit_json.h"
 #include "skinning/motion/face/face_csv.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "skinning/motion/other_formats.h"
@@ -80,6 +81,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
         if (json.is_object() && json.contains("asset")) return read_gltf_motion(file, hints.fps);
         if (holds_mediapipe(json)) return motion_of_mediapipe(json, file.string(), hints.fps);
         if (holds_people(json)) return named(people_of_json(json, file.string()));
+        if (holds_arkit(json)) return face_of_arkit_json(json, file.string(), hints.fps);
         if (holds_bodies(json)) return named(bodies_of_json(json, file.string()));
         return named(read_json_keypoints(file, json));
     }
@@ -94,7 +96,7 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
     }
     throw Error(format(
         "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, faces of "
-        "OpenFace or ARKit as .csv, animated glTF, or .h5, our own or of PATS, are",
+        "OpenFace or ARKit as .csv, of ARKit as .json, animated glTF, or .h5, our own or of PATS, are",
         file.string()));
 }
 

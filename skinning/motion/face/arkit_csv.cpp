@@ -124,7 +124,7 @@ class ArkitReader {
         }
         take_times(fps);
         for (size_t n = 0; n < table_.rows.size(); ++n) append_intensities(n);
-        rows_.notes.push_back(format("ARKit CSV: {} of 52 coefficients, as {} channels of action units",
+        rows_.notes.push_back(format("ARKit: {} of 52 coefficients, as {} channels of action units",
                                      coefficients_, rows_.channels.size()));
         take_head();
         take_gaze();

@@ -450,7 +450,7 @@ TEST_F(ArkitFile, BecomesUnitsWithSides) {
     EXPECT_FLOAT_EQ(at(1), 2);
     EXPECT_FLOAT_EQ(at(19), 5);
     EXPECT_EQ(intensity_of(motion, 1, {25, FaceSide::both}), 0);
-    EXPECT_THAT(motion.notes, Contains("ARKit CSV: 11 of 52 coefficients, as 10 channels of action units"));
+    EXPECT_THAT(motion.notes, Contains("ARKit: 11 of 52 coefficients, as 10 channels of action units"));
 }
 
 TEST_F(ArkitFile, ReadsLiveLinkFace) {
@@ -542,6 +542,46 @@ TEST_F(ArkitFile, RefusesWhatCannotBeMeant) {
          "a.csv: in none of its 2 rows was a face tracked (BlendshapeCount 0); there is nothing to show"},
     };
     for (const auto& [text, message] : refusals) EXPECT_EQ(refusal(text), message);
+}
+
+// As BEAT has its faces: the names once, then a list for each frame.
+TEST_F(ArkitFile, IsReadAsJson) {
+    const std::string names = R"({"names": ["jawOpen", "mouthSmileLeft", "cheekPuff"], )";
+    const Motion motion = read(names + R"("frames": [{"weights": [0.6, 0.5, 0], "time": 0, "rotation": []},
+        {"weights": [0.2, 0, 0.4], "time": 0.016667, "rotation": []},
+        {"weights": [0, 0, 1.004], "time": 0.033333, "rotation": [0, 0.1, 0]}]})");
+    EXPECT_EQ(motion.fps, 60);
+    ASSERT_EQ(motion.frames, 3u);
+    EXPECT_FLOAT_EQ(intensity_of(motion, 0, {26, FaceSide::both}), 3);
+    EXPECT_FLOAT_EQ(intensity_of(motion, 0, {12, FaceSide::left}), 2.5f);
+    EXPECT_NEAR(intensity_of(motion, 1, {34, FaceSide::both}), 2, 1e-3);
+    EXPECT_FLOAT_EQ(intensity_of(motion, 2, {34, FaceSide::both}), 5);
+    EXPECT_THAT(motion.notes, Contains("ARKit: 3 of 52 coefficients, as 4 channels of action units"));
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("rotation: left out")));
+    const std::string frames = R"("frames": [{"weights": [0, 0, 0]}, {"weights": [0, 1, 0]}]})";
+    EXPECT_EQ(read(names + R"("metadata": {"fps": 30}, )" + frames).fps, 30);
+    EXPECT_EQ(read(names + frames, 25).fps, 25);
+}
+
+TEST_F(ArkitFile, RefusesJsonThatCannotBeMeant) {
+    const auto refused = [&](const std::string& frames) {
+        return refusal(R"({"names": ["jawOpen", "mouthSmileLeft", "cheekPuff"], "frames": [)" + frames +
+                       "]}");
+    };
+    const std::string first = R"({"weights": [0, 0, 0], "time": 0}, )";
+    EXPECT_EQ(refused(first + R"({"weights": [0, 0], "time": 0.1})"),
+              "a.csv: frame 1: has no list \"weights\" of 3 numbers, one for each of \"names\"");
+    EXPECT_EQ(refused(first + R"({"weights": [0, 0, 0]})"),
+              "a.csv: frame 1: has no \"time\", and the first frame has one");
+    EXPECT_EQ(refused(first + R"({"weights": [0, "a", 0], "time": 0.1})"),
+              "a.csv: frame 1: \"mouthSmileLeft\" is \"a\", a number is needed");
+    EXPECT_EQ(
+        refused(first + R"({"weights": [0, 1.3, 0], "time": 0.1})"),
+        "a.csv: frame 1: \"mouthSmileLeft\" is 1.3; 0 to 1 is expected, cut off what a model puts out beyond");
+    EXPECT_EQ(refused(first + R"({"weights": [0, 0, 0], "time": 0})"),
+              "a.csv: frame 1: its time is 0 s, and the frame before is at 0 s; frames go on in time");
+    EXPECT_THAT(refused(R"({"weights": [0, 0, 0]}, {"weights": [0, 0, 0]})"),
+                HasSubstr("set the rate with --motion-fps"));
 }
 
 using OurFaceTable = FaceFile;
