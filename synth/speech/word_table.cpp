@@ -68,6 +68,14 @@ std::optional<Columns> columns_guessed(const CsvRow& row) {
     return Columns{others[0], numbers[0], numbers[1]};
 }
 
+// By the first row that shows them: a word may be a number.
+std::optional<Columns> columns_guessed(const CsvTable& table) {
+    for (const CsvRow& row : table.rows) {
+        if (!number_columns(row, false).empty()) return columns_guessed(row);
+    }
+    return std::nullopt;
+}
+
 double time_in(const CsvRow& row, std::size_t column, const char* what, const std::string& file) {
     const std::optional<double> time = parse_number(row.cells[column]);
     if (!time) {
@@ -173,7 +181,7 @@ TimedLabels read_word_table(std::string_view text, const std::string& file) {
         parse_csv_table(text, file, {.allows_short_rows = true, .has_header = false, .has_comments = false});
     const CsvRow& first = table.rows.front();
     const std::optional<Columns> named = columns_named(first),
-                                 columns = named ? named : columns_guessed(first);
+                                 columns = named ? named : columns_guessed(table);
     if (!columns) {
         throw Error(
             format("{}: line {}: its cells ({}) are neither a word, a start and an end nor their names; "
@@ -211,7 +219,8 @@ bool begins_word_table(std::string_view line) {
     try {
         const CsvTable table = parse_csv_table(
             line, "", {.allows_short_rows = true, .has_header = false, .has_comments = false});
-        return columns_named(table.rows[0]) || columns_of_elan(table.rows[0]);
+        const CsvRow& row = table.rows[0];
+        return columns_named(row) || (row.values == 3 ? columns_guessed(row) : columns_of_elan(row));
     } catch (const Error&) {
         return false;  // a quote that is closed on another line
     }

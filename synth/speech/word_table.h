@@ -31,7 +31,8 @@ TimedLabels read_ctm(std::string_view text, const std::string& file);
 // line if a column is missing, a row is too long, a time is no number, or quotes do not match.
 TimedLabels read_word_table(std::string_view text, const std::string& file);
 
-// Whether a table that begins with this line is one of words: by the names of its columns, or as ELAN exports it.
+// Whether a table that begins with this line is one of words: by the names of its columns, as ELAN exports it, or by
+// two numbers and a word.
 bool begins_word_table(std::string_view line);
 
 }  // namespace chironomia

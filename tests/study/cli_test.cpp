@@ -537,7 +537,8 @@ TEST(Info, DescribesWordsInTime) {
                "talk\t\t00:00:00.100\t0.1\t00:00:00.300\t0.3\t00:00:00.200\t0.2\ttwo\n"
                "talk\t\t00:00:00.300\t0.3\t00:00:00.750\t0.75\t00:00:00.450\t0.45\tways\n");
     write_text(folder / "g.ctm", "talk 1 0.1 0.2 two\ntalk 1 0.3 0.45 ways\n");
-    for (const char* name : {"a.json", "b.json", "c.csv", "d.json", "e.csv", "f.txt", "g.ctm"}) {
+    write_text(folder / "h.tsv", "0.1\t0.3\ttwo\n0.3\t0.75\tways\n");  // as GENEA has them
+    for (const char* name : {"a.json", "b.json", "c.csv", "d.json", "e.csv", "f.txt", "g.ctm", "h.tsv"}) {
         const Outcome info = run_chironomia({"info", (folder / name).string()});
         EXPECT_EQ(info.out,
                   "words      2, 0 phonemes\n"

@@ -349,6 +349,8 @@ TEST_F(TimedWordsOf, ReadTablesWithAndWithoutNamesOfColumns) {
           "start_time;END;n;Text\n0.5;0.9;1;\"hello, \"\n1;1.5;2;\"\"\"world\"\"\"\n",
           "#hello,0.5,0.9\nworld,1,1.5\n"})
         EXPECT_EQ(with_times(read(table).words), kHelloWorld) << table;
+    EXPECT_THAT(with_times(read("0.5\t0.9\t20\n1\t1.5\tworld\n").words),
+                ElementsAre("20 0.5-0.9", "world 1-1.5"));
 }
 
 TEST_F(TimedWordsOf, AreRefusedIfATableIsBroken) {
