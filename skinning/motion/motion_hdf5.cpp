@@ -274,6 +274,7 @@ void write_motion_hdf5(const std::filesystem::path& file, const Motion& motion) 
     const size_t frames = motion.frames;
     writer.write_number("fps", motion.fps);
     writer.write_count("frames", frames);
+    if (motion.first_time != 0) writer.write_number("first_time", motion.first_time);
     writer.write_texts("notes", motion.notes);
     if (motion.joints) write_joints(writer, *motion.joints, frames);
     if (motion.keypoints) write_keypoints(writer, *motion.keypoints, frames);
@@ -309,6 +310,7 @@ Motion motion_of_hdf5(const Hdf5File& reader) {
     if (picture) motion.picture = read_picture(reader, frames);
     if (face) motion.face = read_face(reader, frames);
     if (reader.has("labels")) motion.labels = read_labels(reader, frames);
+    if (reader.has("first_time")) motion.first_time = reader.read_numbers("first_time", {})[0];
     if (reader.has("notes")) motion.notes = reader.read_texts("notes");
     return motion;
 }

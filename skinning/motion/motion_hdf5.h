@@ -3,6 +3,7 @@
 //   /                       attributes: format "chironomia motion", version 1, units "m, unit quaternions x y z w"
 //   /fps                    float64
 //   /frames                 uint64, T
+//   /first_time             float64, what the source calls the time of the first frame [s]; missing: 0
 //   /notes                  (N) text
 //   /joints/names           (J) text
 //   /joints/parents         (J) int32, -1 for a root, always smaller than the joint's own index

@@ -110,6 +110,13 @@ TEST_F(MotionHdf5, ReadsBackEveryBit) {
     EXPECT_TRUE(is_hdf5(read_bytes(folder_ / "a.h5")));
 }
 
+TEST_F(MotionHdf5, ReadsBackWhenItBegan) {
+    Motion motion = small_motion();
+    motion.first_time = 0.6;
+    write_motion_hdf5(folder_ / "a.h5", motion);
+    EXPECT_EQ(read_motion(folder_ / "a.h5").first_time, 0.6);
+}
+
 TEST_F(MotionHdf5, ReadsBackAFace) {
     Motion motion = small_motion();
     motion.face = small_face();
