@@ -13,6 +13,7 @@
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_file.h"
+#include "skinning/signal/late_beginning.h"
 #include "skinning/signal/resample.h"
 #include "study/models/style_engine.h"
 #include "synth/corpus/face_features.h"
@@ -180,6 +181,16 @@ std::vector<float> seen(const fs::path& file, std::vector<std::string>& notes) {
     const FaceTrack& face = *motion.face;
     if (face.head.empty()) notes.push_back(format("{}: no head turns; it is held straight", file.string()));
     if (face.gaze.empty()) notes.push_back(format("{}: no gaze; it is held straight", file.string()));
+    for (const int unit : kDyadUnits) {
+        const auto is_unit = [unit](const FaceChannel& channel) { return channel.unit == unit; };
+        if (std::ranges::none_of(face.channels, is_unit))
+            notes.push_back(format("{}: no AU{}; it is held at 0", file.string(), unit));
+    }
+    if (const auto first = late_beginning_of(motion)) {
+        notes.push_back(format(
+            "{}: its times begin at {:.6g} s, which is second 0 here; --user-speech must begin there, too",
+            file.string(), *first));
+    }
     const std::vector<float> units = intensities_of(face, motion.frames, kDyadUnits);
     std::vector<float> rows;
     for (std::size_t t = 0; t < motion.frames; ++t) {

@@ -16,6 +16,7 @@
 #include "skinning/motion/motion_hdf5.h"
 #include "synth/corpus/corpus.h"
 #include "tests/study/process.h"
+#include "tests/study/recordings.h"
 #include "tests/support/motion_hdf5.h"
 #include "tests/support/support.h"
 #include "tests/synth/corpus/sample_records.h"
@@ -254,6 +255,14 @@ TEST_F(Learning, GoesFromDyadsToSomebodyWhoListens) {
     EXPECT_NEAR(duration(motion), brief.duration(), 1 / motion.fps);
     EXPECT_EQ(motion.face->gaze.size(), motion.frames);
     EXPECT_THAT(motion.face->channels, Contains(FaceChannel{12}));
+    // A table that lacks its first rows and a unit that the model looks at.
+    testing::write_openface(file("late.csv"), {.without = "AU06", .first_row = 15});
+    testing::write_voice(file("late.wav"));
+    must({"synth", "--engine", "amii", "--checkpoint", file("m.safetensors"), "--user-face", file("late.csv"),
+          "--user-speech", file("late.wav"), "--out", file("b.h5")});
+    EXPECT_THAT(said_,
+                HasSubstr("late.csv: its times begin at 0.5 s, which is second 0 here; --user-speech must"));
+    EXPECT_THAT(said_, HasSubstr("late.csv: no AU6; it is held at 0"));
 }
 
 TEST_F(Learning, RefusesWeightsWithoutADescription) {
