@@ -52,6 +52,7 @@ class Lister {
         for (const CsvRow& row : table_.rows()) {
             if (auto entry = entry_in(row)) index.entries.push_back(std::move(*entry));
         }
+        if (index.entries.empty()) refuse_unusable();
         index.origin["source"] = "PATS";
         for (const auto& [why, count] : left_out_) index.origin["left_out"][why] = count;
         return index;
@@ -79,6 +80,14 @@ class Lister {
         if (!std::filesystem::exists(pats_file(folder_, entry.speaker, entry.id)))
             return leave_out("without a file");
         return entry;
+    }
+
+    [[noreturn]] void refuse_unusable() const {
+        std::vector<std::string> reasons;
+        for (const auto& [why, count] : left_out_) reasons.push_back(format("{}: {}", why, count));
+        throw Error(format("{}: none of its {} intervals can be used ({}); files are looked for as {}",
+                           (data_folder(folder_) / kTable).string(), table_.rows().size(), join(reasons),
+                           pats_file(folder_, "SPEAKER", "ID").string()));
     }
 
     Split split_in(const CsvRow& row) const {

@@ -144,7 +144,7 @@ FaceCorpus read_face_corpus(const JsonValue& job, const UnitCut& cut) {
     if (corpus.validation.empty()) {
         throw Error(
             format("{}: no talks of the split \"validation\", by which training knows when to stop; make "
-                   "the corpus larger",
+                   "the corpus larger, or give a recording that split",
                    corpus.index.folder.string()));
     }
     return corpus;

@@ -252,7 +252,7 @@ std::vector<CorpusEntry> validation_entries(const CorpusIndex& corpus) {
     if (!entries.empty()) return entries;
     throw Error(
         format("{}: no intervals of the split \"validation\", by which training knows what to keep; make the "
-               "corpus larger",
+               "corpus larger, or give a recording that split",
                corpus.folder.string()));
 }
 

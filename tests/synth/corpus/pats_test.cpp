@@ -13,6 +13,7 @@ namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::refusal_of;
@@ -129,6 +130,17 @@ TEST(Pats, RefusesABrokenTableWithItsLine) {
                 HasSubstr("the id \"115309\" comes twice; give each record its own"));
     EXPECT_THAT(refusal_of_table(header + "test,1,115309,oliver\n"),
                 HasSubstr("the split train is empty, of 1 records; models learn from it alone"));
+}
+
+TEST(Pats, SaysWhereItLooksForFilesThatAreNotThere) {
+    const TemporaryFolder folder;
+    fs::create_directories(folder / "data");
+    fs::copy(kPats / "data/cmu_intervals_df.csv", folder / "data/cmu_intervals_df.csv");
+    EXPECT_THAT(
+        refusal_of([&] { read_corpus_index(folder.path()); }),
+        AllOf(HasSubstr("cmu_intervals_df.csv: none of its 7 intervals can be used (speakers that the thesis "
+                        "does not use: 1, train and dev of unseen speakers: 1, without a file: 5)"),
+              HasSubstr("files are looked for as "), HasSubstr("data/processed/SPEAKER/ID.h5")));
 }
 
 TEST(Pats, RefusesBrokenWords) {
