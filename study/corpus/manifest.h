@@ -65,7 +65,7 @@ struct IntervalRecording {
     std::string id;
     std::string speaker;
     std::string language = "en";
-    std::filesystem::path pose;  // a folder of OpenPose, or any other points of a picture that are read
+    std::filesystem::path pose;  // a folder of OpenPose, or any other body that is read
     std::optional<double> fps;   // of the pose, where its files do not say
     std::filesystem::path audio;
     std::filesystem::path words;

@@ -10,6 +10,7 @@
 #include "skinning/lift/picture_body.h"
 #include "skinning/motion/motion_file.h"
 #include "skinning/motion/picture/openpose.h"
+#include "skinning/motion/picture/picture_camera.h"
 #include "study/corpus/recording.h"
 
 namespace chironomia::study {
@@ -147,12 +148,9 @@ std::optional<PicturePoints> face_about(const TrackedValues& neck, const PointSa
 Motion read_pose(const IntervalRecording& recording) {
     const std::string where = recording.pose.string();
     Motion motion = read_motion(recording.pose, {.fps = recording.fps});
-    if (!motion.picture) {
-        throw Error(
-            format("{}: it holds no points of a picture, which intervals are made of; of a motion in space "
-                   "`chironomia convert` makes a folder of OpenPose",
-                   where));
-    }
+    if (!motion.picture && (motion.joints || motion.keypoints)) motion = project(motion, PictureCamera{});
+    if (!motion.picture)
+        throw Error(format("{}: it holds neither points of a picture nor a body in space", where));
     std::vector<std::string> names = pats_joint_names(), missing;
     names.resize(kHeadAndArms);
     for (const std::string& name : names) {

@@ -17,8 +17,8 @@ struct IntervalFrames {
     std::size_t count() const { return last - first; }
 };
 
-// Points of a picture, with the head and the arms of PATS among them. Throws Error as read_motion() does, and if
-// there are no such points.
+// Points of a picture, with the head and the arms of PATS among them; a body in space is seen by a PictureCamera.
+// Throws Error as read_motion() does, and if there are no such points.
 Motion read_pose(const IntervalRecording& recording);
 
 // T frames. A point that was not seen lies between where it was seen before and behind, with the confidence 0;

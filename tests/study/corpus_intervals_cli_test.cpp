@@ -473,6 +473,29 @@ TEST_F(IntervalImport, TakesWhatTheEngineDid) {
     EXPECT_EQ(info_of(file("out"))["records"], 1);
 }
 
+// As recordings of motion capture are; the same as of the folder that `convert` makes of them.
+TEST_F(IntervalImport, SeesABodyInSpaceByACamera) {
+    const fs::path samples = testing::source_dir() / "assets/samples";
+    const std::string bvh = (samples / "expressive/two-ways.bvh").string();
+    Json captured = {{"id", "r1"},
+                     {"speaker", "anna"},
+                     {"pose", bvh},
+                     {"audio", (samples / "speech/two-ways.wav").string()},
+                     {"words", (samples / "speech/two-ways.words.csv").string()}};
+    const std::vector<IntervalRecord> direct = imported(captured);
+    ASSERT_FALSE(direct.empty());
+    EXPECT_THAT(import_all({captured}).err, HasSubstr("r1: camera: pinhole, 1280 x 720 px"));
+    ASSERT_EQ(run_chironomia({"convert", "--motion", bvh, "--out", file("seen").string()}).exit_code, 0);
+    captured["pose"] = "seen";
+    captured["fps"] = read_motion(bvh).fps;
+    const std::vector<IntervalRecord> seen = imported(captured);
+    ASSERT_EQ(seen.size(), direct.size());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+        EXPECT_THAT(direct[i].pose, ::testing::Pointwise(FloatNear(0.01f), seen[i].pose));
+        EXPECT_THAT(direct[i].pose_confidence, Each(1.0f));
+    }
+}
+
 TEST_F(IntervalImport, TakesPointsOfAPictureInOtherForms) {
     const Outcome converted = run_chironomia({"convert", "--motion", file("pose").string(), "--motion-fps",
                                               "25", "--out", file("pose.h5").string()});
@@ -536,9 +559,9 @@ TEST_F(IntervalImport, RefusesLimitsThatCannotBe) {
 }
 
 TEST_F(IntervalImport, RefusesPosesThatAreNone) {
-    const fs::path bvh = testing::source_dir() / "assets/samples/expressive/two-ways.bvh";
-    EXPECT_THAT(refusal(with("pose", bvh.string())),
-                HasSubstr("two-ways.bvh: it holds no points of a picture, which intervals are made of"));
+    testing::write_openface(file("face.csv"), {});
+    EXPECT_THAT(refusal(with("pose", "face.csv")),
+                HasSubstr("face.csv: it holds neither points of a picture nor a body in space"));
     write_text(
         file("few.json"),
         R"({"fps": 25, "names": ["neck", "left_shoulder", "right_shoulder", "left_elbow", "right_elbow",

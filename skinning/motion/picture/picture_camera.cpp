@@ -195,7 +195,8 @@ Motion project(const Motion& motion, const PictureCamera& camera) {
                   .joints = {},
                   .keypoints = {},
                   .picture = std::move(picture),
-                  .notes = motion.notes};
+                  .notes = motion.notes,
+                  .first_time = motion.first_time};
     result.notes.push_back(
         format("camera: {}, {} x {} px, focal length {} px, {} m away, {} degrees to the left",
                camera.perspective ? "pinhole" : "weak perspective", camera.size.x, camera.size.y,
