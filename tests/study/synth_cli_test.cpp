@@ -132,7 +132,9 @@ TEST_F(Synth, ReadsEveryLanguageFromATextOrAFile) {
         const std::string aplm = (source_dir() / format("assets/samples/demo/{}.aplm", script)).string();
         EXPECT_EQ(synth({"--aplm", aplm}).exit_code, 0);
         EXPECT_EQ(synth({"--script", aplm}).exit_code, 0);
+        EXPECT_EQ(synth({aplm}).exit_code, 0);
     }
+    EXPECT_EQ(synth({"Welcome! There are two ways."}).exit_code, 0);
     EXPECT_EQ(synth({"--ssml", "<speak>It is <emphasis>big</emphasis>.</speak>"}).exit_code, 0);
     EXPECT_EQ(
         synth({"--bml", "<bml><speech id=\"s\"><text><sync id=\"T0\" time=\"0\"/>Well</text></speech></bml>"})

@@ -50,7 +50,7 @@ void add_sources(CLI::App& verb, SynthCommand& command) {
     for (const ScriptOption& script : kScripts) {
         group
             ->add_option_function<std::string>(
-                script.name,
+                script.language ? script.name : format("script,{}", script.name),
                 [&job, script](const std::string& text) {
                     job.script = text;
                     job.option = script.name;
@@ -257,7 +257,7 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         app, "synth", "Make gestures, face and speech from text or speech",
         ""
         "  $ chironomia synth --text \"Welcome! There are two ways.\" --out m.h5 --speech-out s.wav\n"
-        "  $ chironomia synth --aplm talk.aplm --speaker abrupt --seed 3 --out m.h5 --speech-out s.wav\n"
+        "  $ chironomia synth talk.aplm --speaker abrupt --seed 3 --out m.h5 --speech-out s.wav\n"
         "  $ chironomia synth --speech talk.wav --words talk.TextGrid --spc 0.5 --out m.h5\n"
         "  $ chironomia synth --dialog talk.json --out talk\n"
         "  $ chironomia synth --engine model2 --text \"There are two ways.\" --fill --out m.h5 --speech-out "
