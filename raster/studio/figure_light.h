@@ -109,6 +109,7 @@ class FigureLight {
 
   private:
     float body() const;  // 1 for a figure of 1.7 m
+    // Its spread is the tangent of the key light's angle; its radii grow with the figure.
     Penumbra penumbra_on(const LitSurface& surface) const;
     LitSurface lit(const Avatar& avatar, const Surface& surface, const PosedSurface& rest,
                    std::vector<float> ambient_occlusion) const;

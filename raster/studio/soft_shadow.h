@@ -1,5 +1,5 @@
 // How much of a light arrives at the vertices of a posed figure, with a penumbra that widens with the
-// distance between what casts the shadow and what takes it.
+// distance between what casts the shadow (the caster) and what it falls on (the receiver).
 //
 // Worked out per vertex on the CPU: a fine mesh has far fewer vertices than a software OpenGL shades pixels.
 #pragma once
@@ -14,11 +14,12 @@
 
 namespace chironomia {
 
+// FigureLight::penumbra_on() sets it from the angle of the light and the size of the figure.
 struct Penumbra {
-    float spread = 0.1f;   // radius per metre between caster and taker
+    float spread = 0.1f;   // radius per metre between caster and receiver
     float least = 0.004f;  // radius of the sharpest edge [m]
     float most = 0.08f;    // radius of the softest edge [m]
-    float around = 0;      // shadows that pass a vertex by as little as this also give it a radius [m]
+    float around = 0;      // a vertex also takes its radius from shadows that end so near beside it [m]
 };
 
 struct VertexShadow {
@@ -34,7 +35,7 @@ struct SoftShadowTask {
 
 // (V). Vertices that face away from the light count as lit, since they are dark by themselves, unless the
 // surface is seen from both sides. Fernando, "Percentage-Closer Soft Shadows", SIGGRAPH 2005 sketches: search
-// for casters, width from their mean distance, then filter. We differ: the planes of the takers are compared,
+// for casters, width from their mean distance, then filter. We differ: the planes of the receivers are compared,
 // not their depth alone, and a caster counts only where its own penumbra reaches.
 std::vector<VertexShadow> soft_shadow_of(const PosedSurface& surface, const DepthMap& map,
                                          const Penumbra& penumbra, const SoftShadowTask& task = {});

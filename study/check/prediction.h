@@ -36,7 +36,7 @@ struct Prediction {
 Prediction predict_conditions(const std::vector<VideoTraits>& videos, const std::vector<std::string>& names,
                               std::size_t shuffles, std::uint64_t seed);
 
-// By names, sizes, tables of the files, and places in lists and orders.
+// By names of files, their sizes, the tables in their containers, and places in lists and orders.
 Proof check_prediction(const StudyRecord& study);
 
 }  // namespace chironomia::study

@@ -19,10 +19,10 @@ struct MismatchOptions {
     std::uint64_t seed = 0;
 };
 
-// For each clip another one of the same speaker that is about as long, each once: a permutation without fixed
-// points. If there is one it is found; which of several is drawn by the seed (not evenly, but any order of
-// the clips leads to another). Throws Error that names the clips that cannot all be paired, and what would
-// help.
+// For each clip another one of the same speaker that is about as long, each once: a permutation without fixed points.
+// If there is one it is found. Of several the seed draws one; some are drawn more often than others, and the same seed
+// draws another if the clips are listed in another order. Throws Error that names the clips that cannot all be paired,
+// and what would help.
 std::vector<std::size_t> draw_mismatch(const std::vector<SpokenClip>& clips, const MismatchOptions& options);
 
 }  // namespace chironomia::study

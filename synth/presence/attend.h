@@ -17,7 +17,7 @@ struct HeardPartner {
 };
 
 struct AttendInputs {
-    std::size_t person = 0;  // of the floors
+    std::size_t person = 0;  // whose signals these are; FloorTime (turns.h) says who speaks when
     const std::vector<FloorTime>& floors;
     HeardPartner partner;
     const Speaker& speaker;

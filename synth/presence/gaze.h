@@ -18,8 +18,9 @@ struct GazeShift {
     double distance = 0;  // from the target before [rad]
 };
 
-// Ascending; the gaze starts at the partner and comes back. It goes away on every look_away, except during a
-// look_at, and for short spontaneous glances, more often in speech than in silence.
+// Ascending; the gaze starts at the partner and comes back. It goes away on every look_away, but not during a look_at.
+// Besides there are short spontaneous glances away: more often while the person speaks than while the person is silent
+// and listens (`kGaze` in gaze.cpp). Looks at the ends of turns are signals of attend.h.
 std::vector<GazeShift> plan_gaze(const std::vector<Signal>& signals, const std::vector<Phrase>& phrases,
                                  double end, Random random);
 

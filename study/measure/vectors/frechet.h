@@ -20,8 +20,8 @@ Gaussian gaussian_of(const Vectors& vectors);
 // d^2 = |m1 - m2|^2 + tr(C1 + C2 - 2 (C1 C2)^(1/2)), which is what is reported as the Frechet distance, squared
 // as it is: Heusel, Ramsauer, Unterthiner, Nessler, Hochreiter, "GANs Trained by a Two Time-Scale Update Rule
 // Converge to a Local Nash Equilibrium", 2017, there on features of Inception, here on vectors as they are.
-// Nothing is added to the covariances: a direction without spread, such as a joint that stays in place, is
-// none to the root that we take, (C1^(1/2) C2 C1^(1/2))^(1/2), which has the same trace.
+// Nothing is added to the covariances. Singular ones, as of a joint that stays in place, do no harm to the root that we
+// take, (C1^(1/2) C2 C1^(1/2))^(1/2), which has the same trace.
 // Both have the same D.
 double frechet_distance(const Gaussian& a, const Gaussian& b);
 double frechet_distance(const Vectors& a, const Vectors& b);
