@@ -286,6 +286,18 @@ TEST_F(Style, IsMappedAndJudged) {
     }
     EXPECT_THAT(read_text(file("judged/zs-style.svg")), HasSubstr("style by speaker"));
     EXPECT_THAT(read_text(file("judged/zs-content.csv")), HasSubstr("speaker,x,y\n"));
+
+    fs::copy(corpus(), file("again"), fs::copy_options::recursive);
+    CorpusIndex again = read_corpus_index(file("again"));
+    std::swap(again.entries.at(0).split, again.entries.at(1).split);  // as another seed would
+    write_corpus_index(again);
+    EXPECT_THAT(run_chironomia({"evaluate", "--checkpoint", model(), "--classifier", file("c.safetensors"),
+                                "--corpus", file("again"), "--split", "test", "--option", "pairs=2",
+                                "--samples", "100", "--quiet", "--out", file("judged-again")})
+                    .err,
+                AllOf(HasSubstr("zs.safetensors: it has learned from other records than those in \"train\""),
+                      HasSubstr("c.safetensors: it has learned from other records"),
+                      HasSubstr("it judges on what it has learned")));
 }
 
 TEST_F(Style, IsDescribedWithItsParameters) {

@@ -54,13 +54,16 @@ Json description_of(const fs::path& checkpoint) {
 std::vector<std::string> notes_of_splits(const EvaluateCommand& command) {
     if (command.split == "train" || command.split == "validation") return {};
     std::vector<std::string> notes;
-    for (const fs::path& checkpoint : command.checkpoints) {
+    std::vector<fs::path> learned = command.checkpoints;
+    if (command.classifier) learned.push_back(*command.classifier);
+    for (const fs::path& checkpoint : learned) {
         const Json split = description_of(checkpoint).value("split", Json());
         if (!split.is_string() || split == hash_of_split(read_corpus_index(command.corpus))) continue;
         notes.push_back(
             format("{}: it has learned from other records than those in \"train\" and \"validation\" of {}; "
-                   "where some of these are in \"{}\", it is judged on what it has learned",
-                   checkpoint.string(), command.corpus.string(), command.split));
+                   "where some of these are in \"{}\", it {} on what it has learned",
+                   checkpoint.string(), command.corpus.string(), command.split,
+                   checkpoint == command.classifier ? "judges" : "is judged"));
     }
     return notes;
 }
