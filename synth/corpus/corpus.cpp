@@ -11,6 +11,7 @@
 #include "synth/corpus/corpus_entries.h"
 #include "synth/corpus/pats_tree.h"
 #include "synth/corpus/record_checks.h"
+#include "synth/corpus/record_file.h"
 #include "synth/corpus/record_files.h"
 
 namespace chironomia {
@@ -223,6 +224,16 @@ DyadRecord read_dyad(const CorpusIndex& corpus, const CorpusEntry& entry) {
 
 IntervalRecord read_interval(const CorpusIndex& corpus, const CorpusEntry& entry) {
     return read_interval_file(pats_file(corpus.folder, entry.speaker, entry.id), entry.id, entry.speaker);
+}
+
+std::optional<std::string> text_encoder_of_interval(const std::filesystem::path& file) {
+    // data/processed/SPEAKER/ID.h5
+    const std::filesystem::path data =
+        std::filesystem::absolute(file).lexically_normal().parent_path().parent_path().parent_path();
+    if (const auto index = data.parent_path() / kIndex; std::filesystem::exists(index))
+        return index_of(read_json(index), data.parent_path()).text_encoder;
+    if (holds_pats_tree(data) || !RecordFile(file).has("meta")) return kPatsEncoder;
+    return std::nullopt;
 }
 
 std::string hash_of_learned(const CorpusIndex& corpus) {

@@ -71,6 +71,10 @@ IpuRecord read_ipu(const CorpusIndex& corpus, const CorpusEntry& entry);
 DyadRecord read_dyad(const CorpusIndex& corpus, const CorpusEntry& entry);
 IntervalRecord read_interval(const CorpusIndex& corpus, const CorpusEntry& entry);
 
+// What made the vectors of words in the file of an interval, as in CorpusIndex: by the corpus or the tree of PATS in which
+// it lies, or by the file itself, for what is not of ours is of PATS. Nothing of a file of ours that lies elsewhere.
+std::optional<std::string> text_encoder_of_interval(const std::filesystem::path& file);
+
 // SHA-256 of all that models may learn from: ids, speakers, splits and files of the records that are not in `test`.
 std::string hash_of_learned(const CorpusIndex& corpus);
 // SHA-256 of which records are in `train` and `validation`, by ids and speakers; reads no files.

@@ -47,8 +47,7 @@ class Lister {
           missing_(missing_intervals(data_folder(folder))) {}
 
     CorpusIndex run() {
-        CorpusIndex index{
-            .folder = folder_, .kind = CorpusKind::intervals, .text_encoder = "bert-base-uncased"};
+        CorpusIndex index{.folder = folder_, .kind = CorpusKind::intervals, .text_encoder = kPatsEncoder};
         for (const CsvRow& row : table_.rows()) {
             if (auto entry = entry_in(row)) index.entries.push_back(std::move(*entry));
         }

@@ -10,6 +10,8 @@
 
 namespace chironomia {
 
+inline constexpr const char* kPatsEncoder = "bert-base-uncased";  // of its words
+
 // Whether the folder, or the folder data in it, has the table.
 bool holds_pats_tree(const std::filesystem::path& folder);
 

@@ -241,6 +241,28 @@ TEST_F(StagedStudy, RefusesSpeakersOfWhomNothingWasLearnedBeforeItDraws) {
     EXPECT_THAT(refusal_of(plan), HasSubstr("it holds zs-mstm-1, but --engine is mix-stage"));
 }
 
+// The corpus has the built-in encoder, and so has its model.
+TEST_F(Style, RefusesWordsOfAnotherEncoder) {
+    const fs::path pats = testing::source_dir() / "tests/fixtures/corpus/pats";
+    const fs::path interval = pats / "data/processed/oliver/115309.h5";
+    const std::string own = corpus() + ":" + unseen_speaker();
+    const auto refusal = [](const std::vector<std::string>& more) {
+        std::vector<std::string> words{"synth", "--engine", "zs-mstm",    "--checkpoint",
+                                       model(), "--out",    file("no.h5")};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = run_chironomia(words);
+        EXPECT_EQ(outcome.exit_code, 3);
+        return outcome.err;
+    };
+    const std::string why =
+        ": words as vectors of \"bert-base-uncased\", the model has learned those of \"hashbert\"; take one";
+    EXPECT_THAT(refusal({"--content-of", interval.string(), "--style-of", own}),
+                HasSubstr("115309.h5" + why));
+    EXPECT_THAT(refusal({"--text", "Well.", "--style-of", interval.string()}), HasSubstr("115309.h5" + why));
+    EXPECT_THAT(refusal({"--text", "Well.", "--style-of", pats.string() + ":oliver"}),
+                HasSubstr("pats" + why));
+}
+
 TEST_F(Style, IsComparedWithSourceAndTarget) {
     const Outcome outcome = run_chironomia({"evaluate", "--checkpoint", model(), "--corpus", corpus(),
                                             "--split", "test", "--option", "pairs=2", "--samples", "100",

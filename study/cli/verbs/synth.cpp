@@ -263,7 +263,7 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         "  $ chironomia synth --engine model2 --text \"There are two ways.\" --fill --out m.h5 --speech-out "
         "s.wav\n"
         "  $ chironomia synth --engine amii --user-face u.csv --user-speech u.wav --out listener.h5\n"
-        "  $ chironomia synth --engine zs-mstm --speech talk.wav --words talk.TextGrid --style-of pats:oliver "
+        "  $ chironomia synth --engine zs-mstm --speech talk.wav --words talk.TextGrid --style-of people:wendy "
         "--out m.h5");
     add_learned(*verb, *command);
     add_sources(*verb, *command);

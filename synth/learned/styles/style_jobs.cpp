@@ -42,20 +42,31 @@ Tensor fade(std::int64_t frames, bool fades_in, bool fades_out) {
     return weight;
 }
 
-StyleRecord read_style_record(const fs::path& file, const StyleForm& form) {
+// A model that knows no words has no encoder.
+void check_encoder(const StyleModel& model, const std::string& where, const std::string& encoder) {
+    if (model.described.text_encoder.empty() || encoder == model.described.text_encoder) return;
+    throw Error(
+        format("{}: words as vectors of \"{}\", the model has learned those of \"{}\"; take one that "
+               "has learned such words",
+               where, encoder, model.described.text_encoder));
+}
+
+StyleRecord read_style_record(const fs::path& file, const StyleModel& model) {
+    if (const auto encoder = text_encoder_of_interval(file)) check_encoder(model, file.string(), *encoder);
     IntervalRecord interval = read_interval_file(file, "interval", "speaker");
     interval.id = file.string();  // in messages
-    return style_record(interval, form);
+    return style_record(interval, model.form);
 }
 
 // The records of one speaker, or of one file.
-StyleRecords read_target(const JsonValue& style, const StyleForm& form, CorpusIndex& index) {
+StyleRecords read_target(const JsonValue& style, const StyleModel& model, CorpusIndex& index) {
     if (const auto file = style.find("file")) {
         std::vector<StyleRecord> records;
-        records.push_back(read_style_record(file->text(), form));
+        records.push_back(read_style_record(file->text(), model));
         return StyleRecords(std::move(records));
     }
     index = job_corpus(style, CorpusKind::intervals);
+    check_encoder(model, index.folder.string(), index.text_encoder);
     const std::string speaker = style.at("speaker").text();
     std::vector<CorpusEntry> entries;
     std::vector<std::string> speakers;
@@ -69,14 +80,7 @@ StyleRecords read_target(const JsonValue& style, const StyleForm& form, CorpusIn
         throw Error(format("{}: nobody is called \"{}\" there; give one of {}", index.folder.string(),
                            speaker, join(speakers)));
     }
-    return StyleRecords(index, std::move(entries), form);
-}
-
-// A model that knows no words has no encoder.
-void check_encoder(const StyleModel& model, const std::string& where, const std::string& encoder) {
-    if (model.described.text_encoder.empty() || encoder == model.described.text_encoder) return;
-    throw Error(format("{}: words as vectors of \"{}\", the model has learned those of \"{}\"; use the same",
-                       where, encoder, model.described.text_encoder));
+    return StyleRecords(index, std::move(entries), model.form);
 }
 
 std::string names_of_styles(const StyleModel& model) {
@@ -139,8 +143,7 @@ StyleRecord read_content(const Hdf5File& file, const std::string& where, const S
 
 // What is said in an interval, or in the job's inputs.
 StyleRecord asked_content(const StyleModel& model, const JsonValue& job) {
-    if (const auto content = job.find("content"))
-        return read_style_record(content->at("file").text(), model.form);
+    if (const auto content = job.find("content")) return read_style_record(content->at("file").text(), model);
     const std::string inputs = job.at("inputs").text();
     const auto bytes = read_bytes(inputs);
     const Hdf5File file(bytes, inputs);
@@ -272,7 +275,7 @@ Tensor asked_style(const StyleModel& model, const JsonValue& job) {
         return known_style(model, "style", asked.at("speaker").text());
     }
     CorpusIndex index;
-    StyleRecords target = read_target(asked, model.form, index);
+    StyleRecords target = read_target(asked, model, index);
     return mean_style(model, target, style_windows(target, model.frames, model.frames), segments);
 }
 

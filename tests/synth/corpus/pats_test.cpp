@@ -64,6 +64,14 @@ TEST(Pats, ReadsArraysPlainAndPacked) {
     }
 }
 
+TEST(Pats, HasVectorsOfBert) {
+    const fs::path file = kPats / "data/processed/oliver/115309.h5";
+    EXPECT_EQ(text_encoder_of_interval(file), "bert-base-uncased");
+    const TemporaryFolder folder;
+    fs::copy(file, folder / "alone.h5");
+    EXPECT_EQ(text_encoder_of_interval(folder / "alone.h5"), "bert-base-uncased");
+}
+
 // The published files do not all have one flag a frame.
 TEST(Pats, BringsSilenceToTheFrames) {
     const CorpusIndex corpus = read_corpus_index(kPats);
