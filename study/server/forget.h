@@ -1,5 +1,5 @@
 // `study forget`: the operator deletes a participant from the database, from copies of it, and from files of answers.
-// Who withdraws on the page is deleted by ParticipantSessions::withdraw().
+// Who withdraws on the page is deleted by Site::withdraw().
 #pragma once
 
 #include <cstddef>

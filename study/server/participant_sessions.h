@@ -45,7 +45,8 @@ class ParticipantSessions {
         Reply reply;
         std::string name;  // who is gone; empty: nobody
     };
-    // Deletes the one who asks, with all answers (AnswerStore::forget).
+    // Deletes the one who asks, with all answers (AnswerStore::forget). The log and copies are left to
+    // Site::withdraw().
     Withdrawal withdraw(AnswerStore& store, const Json& body) const;
 
   private:

@@ -184,7 +184,7 @@ class GesturePlanner {
             choice.order.insert(choice.order.end(), others.begin(), others.end());
         }
         choice.word = act.word;
-        choice.stroke_end = act.moment;
+        choice.stroke_end = act.moment;  // the stressed vowel of that word
         if (mark.kind == MarkKind::gesture) {
             choice.stroke_end = std::max(0.0, stroke_end_of(mark, plan_, act.moment));
             choice.word = word_at(choice.stroke_end);
