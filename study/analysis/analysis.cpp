@@ -148,7 +148,7 @@ void remove_old_tables(const Files& files, const fs::path& folder) {
     }
     for (const std::string& table : tables) {
         const fs::path file = table + ".csv";
-        // Whoever wrote the last analysis may name nothing outside of the folder.
+        // analysis.json may come from elsewhere: no file outside of the folder is removed.
         if (file == file.filename() && !files.contains(file) && fs::is_regular_file(folder / file))
             fs::remove(folder / file);
     }

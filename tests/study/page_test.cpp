@@ -17,6 +17,15 @@ using testing::ShownPage;
 
 class StudyPage : public testing::PageFixture {};
 
+// What waits inside of a page ends with it.
+TEST_F(StudyPage, IsWaitedForWhileItLoadsAnew) {
+    write_text(folder_ / "twice.html",
+               "<script>if (sessionStorage.length) document.title = 'again'; "
+               "else setTimeout(() => { sessionStorage.been = 1; location.reload(); }, 300);</script>");
+    browser_->open("file://" + (folder_ / "twice.html").string());
+    EXPECT_TRUE(browser_->wait_for("document.title === 'again'"));
+}
+
 TEST_F(StudyPage, LetsAParticipantWatchAnswerAndSave) {
     open("?p=1");
     EXPECT_EQ(text_of("title"), "Two ways to move");

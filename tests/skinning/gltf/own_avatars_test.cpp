@@ -196,6 +196,29 @@ TEST_P(OwnAvatar, HasAllPartsWithTheirTextures) {
 }
 
 // Of two corners of a strip with the same u, one lies further along its strands.
+// Else those behind the canines stand out at the corners of an open mouth.
+TEST_P(OwnAvatar, HasTeethThatAreDarkFurtherBack) {
+    const Surface& teeth = *surfaces_of(avatar(), "teeth").at(0);
+    ASSERT_EQ(teeth.colours.size(), teeth.positions.size());
+    float foremost = -1e9f;
+    for (const Vec3& point : teeth.positions) foremost = std::max(foremost, point.z);
+    size_t lit = 0, dark = 0;
+    for (size_t v = 0; v < teeth.positions.size(); ++v) {
+        const float behind = foremost - teeth.positions[v].z;  // [m]
+        const Vec4& colour = teeth.colours[v];
+        EXPECT_GE(colour.r, colour.g) << "reddened, not cold";
+        if (behind < 0.006f) {
+            ++lit;
+            EXPECT_EQ(colour, Vec4(1));
+        } else if (behind > 0.023f) {
+            ++dark;
+            EXPECT_LT(colour.r, 0.15f);
+        }
+    }
+    EXPECT_GT(lit, 100u);
+    EXPECT_GT(dark, 20u);
+}
+
 TEST_P(OwnAvatar, HasTangentsAcrossTheStrandsOfItsHair) {
     const Avatar& avatar = person(GetParam());
     const Surface& hair = *surfaces_of(avatar, "hair").at(0);
