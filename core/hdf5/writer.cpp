@@ -89,6 +89,13 @@ Handle half_type() {
     return type;
 }
 
+// Numbers or texts of one type.
+struct Elements {
+    hid_t stored;      // their type in the file
+    hid_t given;       // their type at `data`
+    const void* data;  // in C order
+};
+
 size_t count_of(const Hdf5Writer::Shape& shape) {
     return std::accumulate(shape.begin(), shape.end(), size_t{1}, std::multiplies<>());
 }
@@ -114,7 +121,7 @@ struct Hdf5Writer::State {
     }
     void check(const Handle& handle) const { check(handle ? 0 : -1); }
 
-    void write(const std::string& path, hid_t stored, hid_t given, const Shape& shape, const void* data,
+    void write(const std::string& path, const Shape& shape, const Elements& elements,
                Packing packing = Packing::plain) {
         const std::vector<hsize_t> extents(shape.begin(), shape.end());
         const Handle made = untimed(H5P_DATASET_CREATE);
@@ -127,20 +134,19 @@ struct Hdf5Writer::State {
                                ? H5Screate(H5S_SCALAR)
                                : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr),
                            H5Sclose);
-        const Handle set(H5Dcreate2(file, path.c_str(), stored, space, H5P_DEFAULT, made, H5P_DEFAULT),
-                         H5Dclose);
+        const Handle set(
+            H5Dcreate2(file, path.c_str(), elements.stored, space, H5P_DEFAULT, made, H5P_DEFAULT), H5Dclose);
         check(set);
-        check(H5Dwrite(set, given, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+        check(H5Dwrite(set, elements.given, H5S_ALL, H5S_ALL, H5P_DEFAULT, elements.data));
     }
 
-    void write_attribute(const std::string& path, const char* name, hid_t stored, hid_t given,
-                         const void* data) {
+    void write_attribute(const std::string& path, const char* name, const Elements& value) {
         const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-        const Handle attribute(
-            H5Acreate_by_name(file, path.c_str(), name, stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-            H5Aclose);
+        const Handle attribute(H5Acreate_by_name(file, path.c_str(), name, value.stored, space, H5P_DEFAULT,
+                                                 H5P_DEFAULT, H5P_DEFAULT),
+                               H5Aclose);
         check(attribute);
-        check(H5Awrite(attribute, given, data));
+        check(H5Awrite(attribute, value.given, value.data));
     }
 
     std::string where;
@@ -164,23 +170,25 @@ void Hdf5Writer::make_group(const std::string& path) {
 void Hdf5Writer::write_attribute(const char* name, std::string_view text, const std::string& path) {
     const Handle type = text_type(text.size());
     // A text of no letters has one byte.
-    state_->write_attribute(path, name, type, type, text.empty() ? "" : text.data());
+    state_->write_attribute(path, name,
+                            {.stored = type, .given = type, .data = text.empty() ? "" : text.data()});
 }
 
 void Hdf5Writer::write_attribute(const char* name, std::int32_t value, const std::string& path) {
-    state_->write_attribute(path, name, H5T_STD_I32LE, H5T_NATIVE_INT32, &value);
+    state_->write_attribute(path, name, {.stored = H5T_STD_I32LE, .given = H5T_NATIVE_INT32, .data = &value});
 }
 
 void Hdf5Writer::write_attribute(const char* name, double value, const std::string& path) {
-    state_->write_attribute(path, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
+    state_->write_attribute(path, name,
+                            {.stored = H5T_IEEE_F64LE, .given = H5T_NATIVE_DOUBLE, .data = &value});
 }
 
 void Hdf5Writer::write_number(const std::string& path, double value) {
-    state_->write(path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {}, &value);
+    state_->write(path, {}, {.stored = H5T_IEEE_F64LE, .given = H5T_NATIVE_DOUBLE, .data = &value});
 }
 
 void Hdf5Writer::write_count(const std::string& path, std::uint64_t value) {
-    state_->write(path, H5T_STD_U64LE, H5T_NATIVE_UINT64, {}, &value);
+    state_->write(path, {}, {.stored = H5T_STD_U64LE, .given = H5T_NATIVE_UINT64, .data = &value});
 }
 
 void Hdf5Writer::write_floats(const std::string& path, const Shape& shape, std::span<const float> values,
@@ -188,23 +196,23 @@ void Hdf5Writer::write_floats(const std::string& path, const Shape& shape, std::
     assert(values.size() == count_of(shape));
     const Handle half = half_type();
     const hid_t stored = packing == Packing::halved ? half : H5T_IEEE_F32LE;
-    state_->write(path, stored, H5T_NATIVE_FLOAT, shape, values.data(), packing);
+    state_->write(path, shape, {.stored = stored, .given = H5T_NATIVE_FLOAT, .data = values.data()}, packing);
 }
 
 void Hdf5Writer::write_doubles(const std::string& path, const Shape& shape, std::span<const double> values) {
     assert(values.size() == count_of(shape));
-    state_->write(path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, shape, values.data());
+    state_->write(path, shape, {.stored = H5T_IEEE_F64LE, .given = H5T_NATIVE_DOUBLE, .data = values.data()});
 }
 
 void Hdf5Writer::write_ints(const std::string& path, const Shape& shape, std::span<const int> values) {
     assert(values.size() == count_of(shape));
-    state_->write(path, H5T_STD_I32LE, H5T_NATIVE_INT, shape, values.data());
+    state_->write(path, shape, {.stored = H5T_STD_I32LE, .given = H5T_NATIVE_INT, .data = values.data()});
 }
 
 void Hdf5Writer::write_bytes(const std::string& path, const Shape& shape,
                              std::span<const std::uint8_t> values) {
     assert(values.size() == count_of(shape));
-    state_->write(path, H5T_STD_U8LE, H5T_NATIVE_UINT8, shape, values.data());
+    state_->write(path, shape, {.stored = H5T_STD_U8LE, .given = H5T_NATIVE_UINT8, .data = values.data()});
 }
 
 void Hdf5Writer::write_texts(const std::string& path, const std::vector<std::string>& texts) {
@@ -215,7 +223,7 @@ void Hdf5Writer::write_texts(const std::string& path, const std::vector<std::str
     for (size_t i = 0; i < texts.size(); ++i)
         std::copy(texts[i].begin(), texts[i].end(), cells.begin() + static_cast<std::ptrdiff_t>(i * longest));
     const Handle type = text_type(longest);
-    state_->write(path, type, type, {texts.size()}, cells.data());
+    state_->write(path, {texts.size()}, {.stored = type, .given = type, .data = cells.data()});
 }
 
 void Hdf5Writer::close() {
