@@ -101,6 +101,12 @@ struct Layers {
     float through = 1;  // of what is behind
 };
 
+// One sample of each pixel of a block.
+struct BlockSample {
+    RayPack rays;
+    Lanes<SampleNumber> numbers;
+};
+
 Vec3 encoded(const Vec3& linear) {
     const SrgbTables& tables = SrgbTables::get();
     return Vec3(tables.level(linear.r), tables.level(linear.g), tables.level(linear.b)) / 255.0f;
@@ -153,11 +159,9 @@ class RayRenderer : public Renderer {
     void find_figure();
     void draw_tile(Frame& frame, const Rectangle& tile) const;
     void draw_block(Frame& frame, int x, int y) const;
-    void add_sample(Block& block, const RayPack& rays, const Lanes<SampleNumber>& samples) const;
-    LaneMask add_layer(Block& block, Lanes<Layers>& layers, RayPack& rays, const HitPack& found,
-                       const Lanes<SampleNumber>& samples) const;
-    void add_emptiness(Block& block, const RayPack& rays, const Lanes<float>& weights,
-                       const Lanes<SampleNumber>& samples) const;
+    void add_sample(Block& block, const BlockSample& first) const;
+    LaneMask add_layer(Block& block, Lanes<Layers>& layers, BlockSample& sample, const HitPack& found) const;
+    void add_emptiness(Block& block, const BlockSample& sample, const Lanes<float>& empty) const;
     Vec3 direction_at(const Vec2& pixel) const {
         return rays_.corner + pixel.x * rays_.right + pixel.y * rays_.down;
     }
@@ -265,15 +269,14 @@ void RayRenderer::draw_tile(Frame& frame, const Rectangle& tile) const {
 
 void RayRenderer::draw_block(Frame& frame, int x, int y) const {
     Block block{};
-    RayPack rays;
-    Lanes<SampleNumber> samples;
+    BlockSample sample;
     Lanes<Vec2> pixels;
     for (int lane = 0; lane < kLanes; ++lane) {
         const int column = x + lane % kAcross, row = y + lane / kAcross;
-        if (column < size_.width && row < size_.height) rays.active |= 1u << lane;
+        if (column < size_.width && row < size_.height) sample.rays.active |= 1u << lane;
         const auto i = static_cast<size_t>(lane);
         pixels[i] = {column, row};
-        samples[i].pixel = mixed(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
+        sample.numbers[i].pixel = mixed(static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row));
     }
     const bool moves = figure_.moments.size() > 1;
     for (int number = 0; number < options_.samples; ++number) {
@@ -281,23 +284,24 @@ void RayRenderer::draw_block(Frame& frame, int x, int y) const {
             Lanes<std::uint32_t> indices, seeds;
             indices.fill(static_cast<std::uint32_t>(number));
             for (size_t i = 0; i < kLanes; ++i)
-                seeds[i] = mixed(samples[i].pixel, static_cast<std::uint32_t>(use));
+                seeds[i] = mixed(sample.numbers[i].pixel, static_cast<std::uint32_t>(use));
             return pattern_.points(indices, seeds);
         };
         const LanePlaces places = pairs(CameraUse::place);
         const Lanes<float> moments = moves ? pairs(CameraUse::moment).x : Lanes<float>{};
         for (size_t i = 0; i < kLanes; ++i) {
-            samples[i].index = static_cast<std::uint32_t>(number);
-            rays.rays[i] = {.origin = rays_.eye,
-                            .direction = direction_at(pixels[i] + Vec2(places.x[i], places.y[i]) - 0.5f),
-                            .near = scene_.camera.near,
-                            .far = scene_.camera.far,
-                            .moment = moments[i]};
+            sample.numbers[i].index = static_cast<std::uint32_t>(number);
+            sample.rays.rays[i] = {
+                .origin = rays_.eye,
+                .direction = direction_at(pixels[i] + Vec2(places.x[i], places.y[i]) - 0.5f),
+                .near = scene_.camera.near,
+                .far = scene_.camera.far,
+                .moment = moments[i]};
         }
-        add_sample(block, rays, samples);
+        add_sample(block, sample);
     }
     for (size_t i = 0; i < kLanes; ++i) {
-        if (!has(rays.active, i)) continue;
+        if (!has(sample.rays.active, i)) continue;
         const auto pixel = static_cast<size_t>(pixels[i].y) * static_cast<size_t>(size_.width) +
                            static_cast<size_t>(pixels[i].x);
         put(frame.rgba.data() + 4 * pixel, block[i]);
@@ -305,37 +309,37 @@ void RayRenderer::draw_block(Frame& frame, int x, int y) const {
 }
 
 // Follows one sample of each pixel through all that is translucent.
-void RayRenderer::add_sample(Block& block, const RayPack& first, const Lanes<SampleNumber>& samples) const {
-    RayPack rays = first;
+void RayRenderer::add_sample(Block& block, const BlockSample& first) const {
+    BlockSample sample = first;
     Lanes<Layers> layers;
-    for (int layer = 0; layer < kMostLayers && rays.active != 0; ++layer) {
-        const HitPack found = embree_.nearest(rays);
+    for (int layer = 0; layer < kMostLayers && sample.rays.active != 0; ++layer) {
+        const HitPack found = embree_.nearest(sample.rays);
         if (found.hit == 0) break;
-        rays.active = add_layer(block, layers, rays, found, samples);
+        sample.rays.active = add_layer(block, layers, sample, found);
     }
     Lanes<float> empty{};
     for (size_t i = 0; i < kLanes; ++i) {
-        if (!has(first.active, i)) continue;
+        if (!has(first.rays.active, i)) continue;
         empty[i] = layers[i].through;
         if (layers[i].covered == 0) continue;
         block[i].shown += layers[i].covered * decoded(layers[i].srgb / layers[i].covered);
     }
-    add_emptiness(block, first, empty, samples);
+    add_emptiness(block, first, empty);
 }
 
 // Adds what the rays have met, and moves those that go on behind it. Returns these.
-LaneMask RayRenderer::add_layer(Block& block, Lanes<Layers>& layers, RayPack& rays, const HitPack& found,
-                                const Lanes<SampleNumber>& samples) const {
+LaneMask RayRenderer::add_layer(Block& block, Lanes<Layers>& layers, BlockSample& sample,
+                                const HitPack& found) const {
     Lanes<LitPoint> points;
     LaneMask lit = 0;
     for (size_t i = 0; i < kLanes; ++i) {
         if (!has(found.hit, i)) continue;
-        const Ray& ray = rays.rays[i];
+        const Ray& ray = sample.rays.rays[i];
         const float log2_width = log2_width_at_1_ + std::log2(std::max(found.hits[i].distance, 1e-6f));
         points[i] = {.surface = surface_point(figure_, ray, found.hits[i], log2_width),
                      .towards_eye = -normalize(ray.direction),
                      .moment = ray.moment,
-                     .sample = samples[i]};
+                     .sample = sample.numbers[i]};
         if (!points[i].surface.unlit) lit |= 1u << i;
     }
     const auto colours = light_.seen(points, lit);
@@ -355,23 +359,23 @@ LaneMask RayRenderer::add_layer(Block& block, Lanes<Layers>& layers, RayPack& ra
         layers[i].through *= 1 - alpha;
         if (layers[i].through == 0) continue;
         go_on |= 1u << i;
-        rays.rays[i].near = found.hits[i].distance * (1 + 1e-6f) + 1e-5f;
+        sample.rays.rays[i].near = found.hits[i].distance * (1 + 1e-6f) + 1e-5f;
     }
     return go_on;
 }
 
 // The floor's shadow where a sample meets the floor, and the backdrop as it is elsewhere.
-void RayRenderer::add_emptiness(Block& block, const RayPack& rays, const Lanes<float>& empty,
-                                const Lanes<SampleNumber>& samples) const {
+void RayRenderer::add_emptiness(Block& block, const BlockSample& sample, const Lanes<float>& empty) const {
     Lanes<FloorPoint> points;
     LaneMask in_shadow = 0;
     const float drop = scene_.floor_height - rays_.eye.y;
     for (size_t i = 0; i < kLanes; ++i) {
-        const Vec3& direction = rays.rays[i].direction;
+        const Ray& ray = sample.rays.rays[i];
+        const Vec3& direction = ray.direction;
         if (empty[i] == 0 || !scene_.floor || direction.y >= 0 || drop >= 0) continue;
         const Vec3 place = rays_.eye + direction * (drop / direction.y);
         if (!holds(shadow_area_, place)) continue;
-        points[i] = {.position = place, .moment = rays.rays[i].moment, .sample = samples[i]};
+        points[i] = {.position = place, .moment = ray.moment, .sample = sample.numbers[i]};
         in_shadow |= 1u << i;
     }
     Lanes<float> left;

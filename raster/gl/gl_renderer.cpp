@@ -112,11 +112,9 @@ const GlProgram& GlRenderer::program_for(const SurfaceFeatures& features) {
 void GlRenderer::add_part(const Avatar& avatar, size_t index) {
     const Surface& surface = avatar.surfaces[index];
     const LitSurface& lit = light_.surfaces()[index];
-    parts_->parts.push_back(
-        {.surface = GlSurface(gl_, surface, lit.ambient_occlusion, light_.shadow_at_pixels(),
-                              lit.features.cut_out ? sample_orders(surface) : std::vector<std::uint8_t>{}),
-         .program = &program_for(lit.features),
-         .textures = textures_of(parts_->textures, avatar, surface, lit.material)});
+    parts_->parts.push_back({.surface = GlSurface(gl_, surface, lit, light_.shadow_at_pixels()),
+                             .program = &program_for(lit.features),
+                             .textures = textures_of(parts_->textures, avatar, surface, lit.material)});
 }
 
 void GlRenderer::prepare_shadow_texture() const {

@@ -26,9 +26,8 @@ GlName attribute_buffer(const GlFunctions& gl, GLuint place, const std::vector<T
 
 }  // namespace
 
-GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface,
-                     const std::vector<float>& ambient_occlusion, const VertexShadow& shadow,
-                     const std::vector<std::uint8_t>& sample_orders)
+GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface, const LitSurface& lit,
+                     const VertexShadow& shadow)
     : gl_(gl),
       vertex_array_(make_vertex_array(gl)),
       vertex_count_(surface.positions.size()),
@@ -40,12 +39,12 @@ GlSurface::GlSurface(const GlFunctions& gl, const Surface& surface,
     uvs_ = attribute_buffer(gl, attribute::uv, surface.uvs, GL_STATIC_DRAW);
     colours_ = attribute_buffer(gl, attribute::colour, surface.colours, GL_STATIC_DRAW);
     ambient_occlusion_ =
-        attribute_buffer(gl, attribute::ambient_occlusion, ambient_occlusion, GL_STATIC_DRAW);
+        attribute_buffer(gl, attribute::ambient_occlusion, lit.ambient_occlusion, GL_STATIC_DRAW);
     shadows_ = attribute_buffer(gl, attribute::shadow, std::vector<VertexShadow>(vertex_count_, shadow),
                                 GL_STREAM_DRAW);
-    sample_orders_ =
-        attribute_buffer(gl, attribute::sample_order,
-                         std::vector<float>(sample_orders.begin(), sample_orders.end()), GL_STATIC_DRAW);
+    const auto orders = lit.features.cut_out ? sample_orders(surface) : std::vector<std::uint8_t>{};
+    sample_orders_ = attribute_buffer(gl, attribute::sample_order,
+                                      std::vector<float>(orders.begin(), orders.end()), GL_STATIC_DRAW);
     triangles_ = make_buffer(gl);
     gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, *triangles_);
     gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, bytes_of(indices_), indices_.data(), GL_STATIC_DRAW);

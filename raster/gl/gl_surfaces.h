@@ -7,16 +7,16 @@
 
 #include "core/body/avatar.h"
 #include "raster/gl/gl_objects.h"
+#include "raster/studio/figure_light.h"
 #include "raster/studio/soft_shadow.h"
 
 namespace chironomia {
 
 class GlSurface {
   public:
-    // `ambient_occlusion` (V) is that of ambient_occlusion_of. `shadow` holds for every vertex until others are given.
-    // `sample_orders` (V), or empty for what is not cut out.
-    GlSurface(const GlFunctions& gl, const Surface& surface, const std::vector<float>& ambient_occlusion,
-              const VertexShadow& shadow, const std::vector<std::uint8_t>& sample_orders);
+    // `lit` is that of `surface`. `shadow` holds for every vertex until others are given.
+    GlSurface(const GlFunctions& gl, const Surface& surface, const LitSurface& lit,
+              const VertexShadow& shadow);
 
     // `shadows` (V), or empty: they stay as they are.
     void upload(const PosedSurface& posed, const std::vector<VertexShadow>& shadows);

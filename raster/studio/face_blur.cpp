@@ -408,9 +408,9 @@ Grid<Texel> FaceBlur::Parts::means(const Frame& frame, const Rectangle& area,
     return grid;
 }
 
-FaceBlur::FaceBlur(const Avatar& avatar, const FaceRegion& face, const FaceBlurSpec& spec,
-                   const Camera& camera, RenderSize size)
+FaceBlur::FaceBlur(const Avatar& avatar, const FaceBlurSpec& spec, const Camera& camera, RenderSize size)
     : parts_(std::make_unique<Parts>()) {
+    const FaceRegion& face = spec.face;
     assert(spec.part >= FacePart::face && face.parts.size() == avatar.surfaces.size());
     parts_->clip = clip_from_world(camera, size);
     parts_->closest = camera.near;

@@ -16,6 +16,7 @@ inline constexpr float kFaceSigma = 0.11f;
 inline constexpr float kMouthSigma = 0.07f;
 
 struct FaceBlurSpec {
+    FaceRegion face;                 // of the avatar in its rest pose
     FacePart part = FacePart::face;  // what is blurred: the face with the mouth, or the mouth alone
     float sigma = kFaceSigma;        // of the height of the face
 };
@@ -31,8 +32,7 @@ struct FaceBlurSpec {
 class FaceBlur {
   public:
     // Throws Error unless the avatar's head is in front of the camera in the rest pose.
-    FaceBlur(const Avatar& avatar, const FaceRegion& face, const FaceBlurSpec& spec, const Camera& camera,
-             RenderSize size);
+    FaceBlur(const Avatar& avatar, const FaceBlurSpec& spec, const Camera& camera, RenderSize size);
     ~FaceBlur();
     FaceBlur(FaceBlur&&) noexcept;
 

@@ -77,10 +77,11 @@ void blur_faces_of(StagedView& staged, Stage& stage, std::span<const Performance
         const Performance& performance = people[person];
         if (performance.blurred) {
             const FacePart part = performance.blurred->part;
-            const FaceBlurSpec spec{.part = part, .sigma = part == FacePart::face ? kFaceSigma : kMouthSigma};
             const Transform place = staged.places.empty() ? Transform() : staged.places[i];
-            FaceBlur blur(shown, placed(performance.blurred->face, place, before, shown), spec,
-                          staged.view.scene.camera, staged.view.size);
+            const FaceBlurSpec spec{.face = placed(performance.blurred->face, place, before, shown),
+                                    .part = part,
+                                    .sigma = part == FacePart::face ? kFaceSigma : kMouthSigma};
+            FaceBlur blur(shown, spec, staged.view.scene.camera, staged.view.size);
             stage.blurs[person] = format("a sigma of {:.2f} of the height of the face, {:.1f} pixels",
                                          spec.sigma, blur.sigma());
             staged.renderer = blur_faces(std::move(staged.renderer), std::move(blur));

@@ -18,7 +18,7 @@ void blur_face(benchmark::State& state, const char* scene_name, FacePart part) {
     const Scene scene = make_scene(scene_name, avatar, size);
     const PosedMesh mesh = rest_mesh(avatar);
     const Frame drawn = make_gl_renderer(avatar, scene, size)->render(mesh);
-    const FaceBlur blur(avatar, find_face(avatar), {.part = part}, scene.camera, size);
+    const FaceBlur blur(avatar, {.face = find_face(avatar), .part = part}, scene.camera, size);
     Frame frame = drawn;
     for (auto _ : state) blur.apply(frame, mesh);
     state.counters["sigma"] = blur.sigma();

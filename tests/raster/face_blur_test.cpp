@@ -26,16 +26,17 @@ Camera square_on() {
 // A face of 1 m x 1 m in the middle, whose blur has a sigma of 8 px, and whatever else there is.
 struct Scenery {
     Avatar avatar = avatar_of({quad({.low = Vec2(-0.5f), .high = Vec2(0.5f)})});
-    FaceRegion face{.height = 1, .parts = {std::vector<FacePart>(4, FacePart::face)}};
-    FaceBlurSpec spec{.part = FacePart::face, .sigma = 0.08f};
+    FaceBlurSpec spec{.face = {.height = 1, .parts = {std::vector<FacePart>(4, FacePart::face)}},
+                      .part = FacePart::face,
+                      .sigma = 0.08f};
 
     void add(const Surface& surface, FacePart part) {
         avatar.surfaces.push_back(surface);
         avatar.surfaces.back().joint = avatar.surfaces.back().material = 0;
-        face.parts.emplace_back(surface.positions.size(), part);
+        spec.face.parts.emplace_back(surface.positions.size(), part);
     }
 
-    FaceBlur blur() const { return FaceBlur(avatar, face, spec, square_on(), kSize); }
+    FaceBlur blur() const { return FaceBlur(avatar, spec, square_on(), kSize); }
 
     Frame blurred(const Frame& frame) const {
         Frame result = frame;
@@ -232,7 +233,8 @@ TEST(FaceBlur, KeepsAHandInFrontSharpAndItsColourToItself) {
 TEST(FaceBlur, OfTheMouthLeavesTheRestOfTheFace) {
     Scenery scenery;
     scenery.add(quad({.low = Vec2(-0.1f), .high = Vec2(0.1f), .z = 0.01f}), FacePart::mouth);
-    scenery.spec = {.part = FacePart::mouth, .sigma = 0.05f};
+    scenery.spec.part = FacePart::mouth;
+    scenery.spec.sigma = 0.05f;
     Frame before = patchwork(), after = scenery.blurred(before);
     EXPECT_NEAR(pixel(after, 160, 120)[1], gaussian_at(before, 160, 120, 1, 5), 3);
     for (const int x : {120, 130, 190, 200}) EXPECT_EQ(pixel(after, x, 120)[1], pixel(before, x, 120)[1]);
