@@ -158,8 +158,10 @@ DepthMap draw_depth_map(const PosedMesh& mesh, const ShadowCaster& caster, const
         const DepthRows rows{static_cast<int>(first), static_cast<int>(last)};
         for (size_t i = 0; i < seen.size(); ++i) {
             const ShadowCaster::Part& part = caster.parts[i];
-            draw_depth_triangles(map, rows, seen[i].data(), part.triangles,
-                                 part.double_sided || grid.both_sides);
+            draw_depth_triangles(map, rows,
+                                 {.points = seen[i],
+                                  .corners = part.triangles,
+                                  .both_sides = part.double_sided || grid.both_sides});
         }
     });
     return map;

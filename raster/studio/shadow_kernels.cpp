@@ -28,14 +28,13 @@ namespace chironomia {
 HWY_EXPORT(DrawDepthTriangles);
 HWY_EXPORT(ShadowVertices);
 
-void draw_depth_triangles(DepthMap& map, const DepthRows& rows, const Vec3* points,
-                          std::span<const std::uint32_t> corners, bool both_sides) {
-    HWY_DYNAMIC_DISPATCH(DrawDepthTriangles)(map, rows, points, corners, both_sides);
+void draw_depth_triangles(DepthMap& map, const DepthRows& rows, const DepthTriangles& triangles) {
+    HWY_DYNAMIC_DISPATCH(DrawDepthTriangles)(map, rows, triangles);
 }
 
-void shadow_vertices(const VertexShadowSearch& search, const Vec3* positions, const Vec3* normals,
+void shadow_vertices(const VertexShadowSearch& search, const PosedSurface& surface,
                      std::span<const std::uint32_t> vertices, VertexShadow* shadows) {
-    HWY_DYNAMIC_DISPATCH(ShadowVertices)(search, positions, normals, vertices, shadows);
+    HWY_DYNAMIC_DISPATCH(ShadowVertices)(search, surface, vertices, shadows);
 }
 
 }  // namespace chironomia

@@ -16,10 +16,15 @@ struct DepthRows {
     int first = 0, last = 0;
 };
 
-// Keeps the nearest depth at every texel centre inside a triangle. `points`: x, y [texels], z [depth]; `corners` (F,
-// 3). Faces that are turned away are left out, unless `both_sides`.
-void draw_depth_triangles(DepthMap& map, const DepthRows& rows, const Vec3* points,
-                          std::span<const std::uint32_t> corners, bool both_sides);
+// A surface on the grid of a depth map.
+struct DepthTriangles {
+    std::span<const Vec3> points;            // (V) x, y [texels], z [depth]
+    std::span<const std::uint32_t> corners;  // (F, 3)
+    bool both_sides = false;                 // false: faces that are turned away are left out
+};
+
+// Keeps the nearest depth at every texel centre inside a triangle.
+void draw_depth_triangles(DepthMap& map, const DepthRows& rows, const DepthTriangles& triangles);
 
 // Where a vertex looks for what may shade it.
 struct ShadowTap {
@@ -36,7 +41,7 @@ struct VertexShadowSearch {
 };
 
 // Sets those of `shadows` (V) that `vertices` names.
-void shadow_vertices(const VertexShadowSearch& search, const Vec3* positions, const Vec3* normals,
+void shadow_vertices(const VertexShadowSearch& search, const PosedSurface& surface,
                      std::span<const std::uint32_t> vertices, VertexShadow* shadows);
 
 }  // namespace chironomia

@@ -54,8 +54,7 @@ std::vector<VertexShadow> soft_shadow_of(const PosedSurface& surface, const Dept
     const std::vector<ShadowTap> taps = search_taps(map, penumbra);
     const VertexShadowSearch search{map, penumbra, taps, filter, task.double_sided};
     share_stretches(vertices.size(), kVerticesAtOnce, task.threads, [&](size_t first, size_t last) {
-        shadow_vertices(search, surface.positions.data(), surface.normals.data(),
-                        vertices.subspan(first, last - first), shadows.data());
+        shadow_vertices(search, surface, vertices.subspan(first, last - first), shadows.data());
     });
     return shadows;
 }

@@ -32,14 +32,24 @@ struct WeightSpan {
     }
 };
 
+// x, y [texels], z [depth].
+struct DepthCorners {
+    const Vec3 &a, &b, &c;
+    float twice_area;  // below 0: turned away from the light
+
+    HWY_INLINE DepthCorners(const Vec3& a_, const Vec3& b_, const Vec3& c_)
+        : a(a_), b(b_), c(c_), twice_area((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) {}
+};
+
 // A triangle whose barycentric weights of b and c are linear over the grid.
 struct DepthTriangle {
     Vec3 a{0};
     float b_dx = 0, b_dy = 0, c_dx = 0, c_dy = 0;
     float b_z = 0, c_z = 0;  // depth from that of a
 
-    HWY_INLINE DepthTriangle(const Vec3& a_, const Vec3& b, const Vec3& c, float twice_area) : a(a_) {
-        const float scale = 1.0f / twice_area;
+    HWY_INLINE explicit DepthTriangle(const DepthCorners& corners) : a(corners.a) {
+        const Vec3 &b = corners.b, &c = corners.c;
+        const float scale = 1.0f / corners.twice_area;
         b_dx = (c.y - a.y) * scale, b_dy = -(c.x - a.x) * scale;
         c_dx = -(b.y - a.y) * scale, c_dy = (b.x - a.x) * scale;
         b_z = b.z - a.z;
@@ -53,13 +63,12 @@ struct DepthLanes {
     hn::Vec<D> b, c;  // shares of the weights that change along a row
     hn::Mask<D> inside;
 
-    HWY_INLINE DepthLanes(D d, const DepthTriangle& triangle, int x, int first, int last) {
+    HWY_INLINE DepthLanes(D d, const DepthTriangle& triangle, int x, const RowSpan& span) {
         const hn::Vec<D> column = hn::Iota(d, static_cast<float>(x));
         const hn::Vec<D> px = hn::Sub(hn::Add(column, hn::Set(d, 0.5f)), hn::Set(d, triangle.a.x));
         b = hn::Mul(px, hn::Set(d, triangle.b_dx));
         c = hn::Mul(px, hn::Set(d, triangle.c_dx));
-        inside = hn::And(hn::Ge(column, hn::Set(d, static_cast<float>(first))),
-                         hn::Le(column, hn::Set(d, static_cast<float>(last))));
+        inside = hn::And(hn::Ge(column, hn::Set(d, span.first)), hn::Le(column, hn::Set(d, span.last)));
     }
 
     HWY_INLINE void draw(D d, const DepthTriangle& triangle, float py, float* depth) const {
@@ -78,8 +87,8 @@ struct DepthLanes {
 };
 
 template <class D>
-HWY_INLINE void draw_depth_triangle(D d, DepthMap& map, const DepthRows& rows, const Vec3& a, const Vec3& b,
-                                    const Vec3& c, float twice_area) {
+HWY_INLINE void draw_depth_triangle(D d, DepthMap& map, const DepthRows& rows, const DepthCorners& corners) {
+    const Vec3 &a = corners.a, &b = corners.b, &c = corners.c;
     const auto last = static_cast<float>(map.side - 1);
     const int x0 = rounded_up(std::max(0.0f, std::min({a.x, b.x, c.x}) - 0.5f));
     const int x1 = rounded_down(std::min(last, std::max({a.x, b.x, c.x}) - 0.5f));
@@ -87,14 +96,15 @@ HWY_INLINE void draw_depth_triangle(D d, DepthMap& map, const DepthRows& rows, c
     const int y1 = std::min(rounded_down(std::min(last, std::max({a.y, b.y, c.y}) - 0.5f)), rows.last - 1);
     if (x0 > x1 || y0 > y1) return;
 
-    const DepthTriangle triangle(a, b, c, twice_area);
+    const DepthTriangle triangle(corners);
+    const RowSpan all{static_cast<float>(x0), static_cast<float>(x1)};
     const auto side = static_cast<std::size_t>(map.side);
     float* row = map.depth.data() + static_cast<std::size_t>(y0) * side;
     // A vector never reaches into the next row, which may be another thread's.
     const int step = static_cast<int>(hn::Lanes(d)), furthest = map.side - step;
     if (x1 - x0 < step) {
         const int x = std::min(x0, furthest);
-        const DepthLanes<D> texels(d, triangle, x, x0, x1);
+        const DepthLanes<D> texels(d, triangle, x, all);
         for (int y = y0; y <= y1; ++y, row += side)
             texels.draw(d, triangle, static_cast<float>(y) + 0.5f - a.y, row + x);
         return;
@@ -104,7 +114,7 @@ HWY_INLINE void draw_depth_triangle(D d, DepthMap& map, const DepthRows& rows, c
     const float offset = 0.5f - a.x;
     for (int y = y0; y <= y1; ++y, row += side) {
         const float py = static_cast<float>(y) + 0.5f - a.y;
-        RowSpan span{static_cast<float>(x0), static_cast<float>(x1)};
+        RowSpan span = all;
         const float at_b = py * triangle.b_dy + offset * b_dx, at_c = py * triangle.c_dy + offset * c_dx;
         of_b.narrow(span, at_b);
         of_c.narrow(span, at_c);
@@ -113,32 +123,33 @@ HWY_INLINE void draw_depth_triangle(D d, DepthMap& map, const DepthRows& rows, c
         const int end = std::min(x1, static_cast<int>(span.last) + 1);
         for (int from = static_cast<int>(span.first); from <= end; from += step) {
             const int x = std::min(from, furthest);
-            DepthLanes<D>(d, triangle, x, from, end).draw(d, triangle, py, row + x);
+            const RowSpan rest{static_cast<float>(from), static_cast<float>(end)};
+            DepthLanes<D>(d, triangle, x, rest).draw(d, triangle, py, row + x);
         }
     }
 }
 
 template <class D>
-void draw_depth_triangles(D d, DepthMap& map, const DepthRows& rows, const Vec3* points,
-                          std::span<const std::uint32_t> corners, bool both_sides) {
+void draw_depth_triangles(D d, DepthMap& map, const DepthRows& rows, const DepthTriangles& triangles) {
+    const Vec3* points = triangles.points.data();
+    const std::span<const std::uint32_t> indices = triangles.corners;
     const float low = static_cast<float>(rows.first) - 1, high = static_cast<float>(rows.last) + 1;
-    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-        const Vec3& a = points[corners[i]];
-        const Vec3& b = points[corners[i + 1]];
-        const Vec3& c = points[corners[i + 2]];
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const Vec3& a = points[indices[i]];
+        const Vec3& b = points[indices[i + 1]];
+        const Vec3& c = points[indices[i + 2]];
         if (std::max({a.y, b.y, c.y}) < low || std::min({a.y, b.y, c.y}) > high) continue;
-        const float twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        const DepthCorners corners(a, b, c);
         // Faces turned away from the light lie behind others.
-        if (twice_area > 1e-9f || (both_sides && twice_area < -1e-9f))
-            draw_depth_triangle(d, map, rows, a, b, c, twice_area);
+        if (corners.twice_area > 1e-9f || (triangles.both_sides && corners.twice_area < -1e-9f))
+            draw_depth_triangle(d, map, rows, corners);
     }
 }
 
-void DrawDepthTriangles(DepthMap& map, const DepthRows& rows, const Vec3* points,
-                        std::span<const std::uint32_t> corners, bool both_sides) {
+void DrawDepthTriangles(DepthMap& map, const DepthRows& rows, const DepthTriangles& triangles) {
     if (map.side >= lanes()) {
-        draw_depth_triangles(FloatTag(), map, rows, points, corners, both_sides);
+        draw_depth_triangles(FloatTag(), map, rows, triangles);
     } else {
-        draw_depth_triangles(hn::CappedTag<float, 1>(), map, rows, points, corners, both_sides);
+        draw_depth_triangles(hn::CappedTag<float, 1>(), map, rows, triangles);
     }
 }

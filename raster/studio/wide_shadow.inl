@@ -87,9 +87,11 @@ struct WideShadow {
     }
 };
 
-void ShadowVertices(const VertexShadowSearch& search, const Vec3* positions, const Vec3* normals,
+void ShadowVertices(const VertexShadowSearch& search, const PosedSurface& surface,
                     std::span<const std::uint32_t> vertices, VertexShadow* shadows) {
     const WideShadow shadow(search);
+    const Vec3* positions = surface.positions.data();
+    const Vec3* normals = surface.normals.data();
     const int count = static_cast<int>(vertices.size());
     for (int i = 0; i < count; i += lanes()) {
         const int there = std::min(lanes(), count - i);

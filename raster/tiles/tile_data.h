@@ -112,6 +112,7 @@ struct alignas(64) TileItems {
     static constexpr int kRoom = kMost + kMostTileLanes;  // a vector may write beyond the last item
 
     int count = 0;
+    int first = 0;                // of the triangle that is added; its values are not known yet
     std::int32_t pixel[kRoom];    // in the tile
     std::int32_t samples[kRoom];  // a bit for each that is covered
     float facing[kRoom];          // 1: the front is seen; -1: the back

@@ -63,9 +63,9 @@ int cover_translucent(const Tile& tile, const TileTriangle& triangle, TileCovera
     return HWY_DYNAMIC_DISPATCH(CoverTranslucent)(tile, triangle, covered);
 }
 
-void interpolate(TileItems& items, int first, const Tile& tile, const TileTriangle& triangle,
+void interpolate(TileItems& items, const Tile& tile, const TileTriangle& triangle,
                  const TileSurface& surface) {
-    HWY_DYNAMIC_DISPATCH(Interpolate)(items, first, tile, triangle, surface);
+    HWY_DYNAMIC_DISPATCH(Interpolate)(items, tile, triangle, surface);
 }
 
 void shade(TileItems& items, const TileSurface& surface, const TileLights& lights) {

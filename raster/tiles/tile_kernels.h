@@ -27,8 +27,8 @@ struct TileCoverage {
 };
 int cover_translucent(const Tile& tile, const TileTriangle& triangle, TileCoverage& covered);
 
-// The values of the items from `first` on, whose pixels are known, on `triangle`.
-void interpolate(TileItems& items, int first, const Tile& tile, const TileTriangle& triangle,
+// The values of the items from `items.first` on, whose pixels are known, on `triangle`.
+void interpolate(TileItems& items, const Tile& tile, const TileTriangle& triangle,
                  const TileSurface& surface);
 
 // The colours of all items.

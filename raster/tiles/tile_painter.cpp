@@ -27,10 +27,8 @@ TilePainter::TilePainter()
       pixels_(kTilePixels) {}
 
 std::span<const std::uint8_t> TilePainter::paint(int x, int y, const TileFigure& figure,
-                                                 std::span<const TileTriangle> triangles,
                                                  std::span<const std::uint32_t> list) {
     figure_ = &figure;
-    triangles_ = triangles;
     list_ = list;
     std::fill_n(tile_->nearness[0], kTileSamples * kTilePixels, 0.0f);
     std::fill_n(tile_->triangle[0], kTileSamples * kTilePixels, 0u);
@@ -118,18 +116,18 @@ void TilePainter::add(const Item& item) {
     }
     if (drawn_ != item.id) {
         drawn_ = item.id;
-        first_drawn_ = items_->count;
+        items_->first = items_->count;
     }
     items_->pixel[items_->count] = item.pixel;
     items_->samples[items_->count++] = item.samples;
 }
 
 void TilePainter::finish_triangle() {
-    if (drawn_ != 0 && first_drawn_ < items_->count) {
+    if (drawn_ != 0 && items_->first < items_->count) {
         const TileTriangle& done = triangle(drawn_);
-        interpolate(*items_, first_drawn_, *tile_, done, figure_->surface(done.surface));
+        interpolate(*items_, *tile_, done, figure_->surface(done.surface));
     }
-    first_drawn_ = items_->count;
+    items_->first = items_->count;
 }
 
 void TilePainter::shade_items() {
@@ -147,9 +145,8 @@ void TilePainter::shade_items() {
             colour = blending_ ? over(items_->result[i], colour) : items_->result[i];
         }
     }
-    items_->count = 0;
+    items_->count = items_->first = 0;
     drawn_ = 0;
-    first_drawn_ = 0;
 }
 
 }  // namespace chironomia

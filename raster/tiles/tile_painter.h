@@ -16,9 +16,8 @@ class TilePainter {
     TilePainter();
 
     // (kTileHeight, kTileWidth, 4): sRGB multiplied by coverage, and the coverage, of the tile whose first pixel is
-    // (x, y). `list` says which of `triangles` may touch it. What is returned holds until the next call.
+    // (x, y). `list` says which triangles of `figure` may touch it. What is returned holds until the next call.
     std::span<const std::uint8_t> paint(int x, int y, const TileFigure& figure,
-                                        std::span<const TileTriangle> triangles,
                                         std::span<const std::uint32_t> list);
 
   private:
@@ -34,17 +33,15 @@ class TilePainter {
     void add(const Item& item);
     void finish_triangle();
     void shade_items();
-    const TileTriangle& triangle(std::uint32_t id) const { return triangles_[list_[id - 1]]; }
+    const TileTriangle& triangle(std::uint32_t id) const { return figure_->triangles()[list_[id - 1]]; }
 
     const TileFigure* figure_ = nullptr;
-    std::span<const TileTriangle> triangles_;
     std::span<const std::uint32_t> list_;
     std::unique_ptr<Tile> tile_;
     std::unique_ptr<TileItems> items_;
     std::unique_ptr<TileCoverage> covered_;
     bool blending_ = false;    // what is shaded lets light through
     std::uint32_t drawn_ = 0;  // the triangle whose items are being added; 0: none
-    int first_drawn_ = 0;      // its first item
     std::vector<Item> seen_, sorted_;
     std::vector<std::uint32_t> places_;  // where the items of each triangle begin
     std::vector<std::uint32_t> pixels_;

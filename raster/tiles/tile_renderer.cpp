@@ -23,15 +23,14 @@ constexpr int kMostFramesAtOnce = 4;
 
 class TileRenderer : public Renderer {
   public:
-    TileRenderer(const Avatar& avatar, const Scene& scene, RenderSize size, const TileOptions& options,
-                 std::future<TileTextures> textures)
-        : light_(avatar, scene, size, options.threads),
-          camera_(light_.scene().camera, size),
-          textures_(textures.get()),
+    TileRenderer(const Avatar& avatar, FigureLight light, TileTextures textures, const TileOptions& options)
+        : light_(std::move(light)),
+          camera_(light_.scene().camera, light_.size()),
+          textures_(std::move(textures)),
           options_(options),
-          backdrop_(draw_backdrop(light_.scene(), size, options.threads)),
-          columns_((size.width + kTileWidth - 1) / kTileWidth),
-          rows_((size.height + kTileHeight - 1) / kTileHeight) {
+          backdrop_(draw_backdrop(light_.scene(), light_.size(), options.threads)),
+          columns_((light_.size().width + kTileWidth - 1) / kTileWidth),
+          rows_((light_.size().height + kTileHeight - 1) / kTileHeight) {
         for (int i = 0; i < frames_at_once(); ++i) figures_.emplace_back(avatar, light_, camera_, textures_);
     }
 
@@ -87,7 +86,7 @@ class TileRenderer : public Renderer {
                    std::span<const std::uint32_t> list) const {
         thread_local TilePainter painter;
         const int x = index % columns_ * kTileWidth, y = index / columns_ * kTileHeight;
-        const auto layer = painter.paint(x, y, figure, figure.triangles(), list);
+        const auto layer = painter.paint(x, y, figure, list);
         const Rectangle area =
             intersection({x, y, kTileWidth, kTileHeight}, {0, 0, frame.width, frame.height});
         put_in_front(frame, area, layer, kTileWidth);
@@ -108,7 +107,8 @@ std::unique_ptr<Renderer> make_tile_renderer(const Avatar& avatar, const Scene& 
                                              const TileOptions& options) {
     // While the light on the figure is worked out.
     auto textures = std::async(std::launch::async, [&] { return TileTextures(avatar, options.threads); });
-    return std::make_unique<TileRenderer>(avatar, scene, size, options, std::move(textures));
+    FigureLight light(avatar, scene, size, options.threads);
+    return std::make_unique<TileRenderer>(avatar, std::move(light), textures.get(), options);
 }
 
 }  // namespace chironomia

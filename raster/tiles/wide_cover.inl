@@ -55,6 +55,12 @@ struct SampleColumn {
     }
 };
 
+// Which pixels of a vector see a triangle at one of their samples, and its nearness there.
+struct Covered {
+    Mask which;
+    Float nearness;
+};
+
 // The samples of a row of pixels in a column.
 struct SampleRow {
     const SampleColumn& column;
@@ -65,8 +71,7 @@ struct SampleRow {
         for (int i = 0; i < 3; ++i) edges[i] = hn::Add(c.edges[i], whole(8 * row * c.seen.down[i]));
     }
 
-    // Those of the pixels whose sample `s` is covered; `nearness` is that of the triangle there.
-    HWY_INLINE Mask covered(int s, Float& nearness) const {
+    HWY_INLINE Covered covered(int s) const {
         const std::int32_t* further = column.from_corner[s];
         const IntLanes outside =
             hn::Or(hn::Or(hn::Add(edges[0], whole(further[0])), hn::Add(edges[1], whole(further[1]))),
@@ -74,25 +79,33 @@ struct SampleRow {
         const TileTriangle& triangle = column.triangle;
         const float dy = y + static_cast<float>(kSampleDown[s] - 4) / 8;
         const Float at_row = triangle.nearness.at_anchor + triangle.nearness.per_y * dy;
-        nearness = clamp(at_row + column.across[s], triangle.least_near, triangle.most_near);
-        return {hn::RebindMask(FloatTag(), hn::Gt(outside, whole(-1)))};
+        return {{hn::RebindMask(FloatTag(), hn::Gt(outside, whole(-1)))},
+                clamp(at_row + column.across[s], triangle.least_near, triangle.most_near)};
     }
 };
 
-HWY_INLINE void keep(Tile& tile, int s, int place, Mask which, Float nearness, std::uint32_t id) {
+// One sample of each pixel of a vector.
+struct SamplePlace {
+    int sample = 0;
+    int pixel = 0;  // the first of them, in the tile
+};
+
+HWY_INLINE void keep(Tile& tile, const SamplePlace& at, const Covered& covered, std::uint32_t id) {
     const FloatTag f;
     const IntTag d;
-    float* kept = tile.nearness[s] + place;
-    auto* ids = reinterpret_cast<std::int32_t*>(tile.triangle[s] + place);
-    hn::Store(hn::IfThenElse(which.lanes, nearness.lanes, hn::Load(f, kept)), f, kept);
-    hn::Store(hn::IfThenElse(hn::RebindMask(d, which.lanes), whole(static_cast<std::int32_t>(id)),
-                             hn::Load(d, ids)),
-              d, ids);
+    float* kept = tile.nearness[at.sample] + at.pixel;
+    auto* ids = reinterpret_cast<std::int32_t*>(tile.triangle[at.sample] + at.pixel);
+    const MaskLanes which = covered.which.lanes;
+    hn::Store(hn::IfThenElse(which, covered.nearness.lanes, hn::Load(f, kept)), f, kept);
+    hn::Store(
+        hn::IfThenElse(hn::RebindMask(d, which), whole(static_cast<std::int32_t>(id)), hn::Load(d, ids)), d,
+        ids);
 }
 
-HWY_INLINE Mask nearer(const Tile& tile, int s, int place, Mask covered, Float nearness) {
-    const Float kept = hn::Load(FloatTag(), tile.nearness[s] + place);
-    return {hn::And(covered.lanes, (nearness > kept).lanes)};
+// What of it lies before all that is kept.
+HWY_INLINE Covered nearer(const Tile& tile, const SamplePlace& at, const Covered& covered) {
+    const Float kept = hn::Load(FloatTag(), tile.nearness[at.sample] + at.pixel);
+    return {covered.which & (covered.nearness > kept), covered.nearness};
 }
 
 // Calls `visit` for each block that a triangle may touch, until it gives false.
@@ -142,12 +155,10 @@ void CoverSolid(Tile& tile, const TileTriangle& triangle, std::uint32_t id) {
         const SampleColumn column(triangle, seen, tile, x);
         for (int y = seen.top; y <= seen.last_y; ++y) {
             const SampleRow row(column, y);
-            const int place = y * kTileWidth + x;
             for (int s = 0; s < kTileSamples; ++s) {
-                Float nearness;
-                const Mask covered = row.covered(s, nearness);
-                const Mask seen_here = nearer(tile, s, place, covered, nearness);
-                if (seen_here) keep(tile, s, place, seen_here, nearness, id);
+                const SamplePlace at{.sample = s, .pixel = y * kTileWidth + x};
+                const Covered covered = nearer(tile, at, row.covered(s));
+                if (covered.which) keep(tile, at, covered, id);
             }
         }
     }
@@ -180,13 +191,19 @@ HWY_INLINE Weights inside(Weights weights) {
     return weights;
 }
 
-HWY_INLINE Float between(const Weights& weights, float a, float b, float c) {
-    return Float(a) + weights.second * Float(b - a) + weights.third * Float(c - a);
+// A value at the corners of a triangle.
+struct CornerValues {
+    float a, b, c;
+};
+
+HWY_INLINE Float between(const Weights& weights, const CornerValues& at) {
+    return Float(at.a) + weights.second * Float(at.b - at.a) + weights.third * Float(at.c - at.a);
 }
 
-// How much a value changes over a pixel.
-HWY_INLINE Float change_of(const TileTriangle& triangle, const Weights& weights, Float value, float a,
-                           float b, float c) {
+// How much a value changes over a pixel, where it is `value`.
+HWY_INLINE Float change_of(const TileTriangle& triangle, const Weights& weights, const CornerValues& at,
+                           Float value) {
+    const auto [a, b, c] = at;
     const float x =
         a * triangle.nearness.per_x + (b - a) * triangle.second.per_x + (c - a) * triangle.third.per_x;
     const float y =
@@ -207,54 +224,55 @@ HWY_INLINE AlphaOfPixels alpha_at(const TileTriangle& triangle, const TileSurfac
     const auto& [a, b, c] = triangle.corners;
     AlphaOfPixels result{surface.lit->material.base_colour.w, 0.0f};
     if (surface.colours)
-        result.alpha *= between(weights, surface.colours[a].w, surface.colours[b].w, surface.colours[c].w);
+        result.alpha *= between(weights, {surface.colours[a].w, surface.colours[b].w, surface.colours[c].w});
     if (!surface.base_colour.texels) return result;
-    const Vec2 at_a = surface.uvs[a], at_b = surface.uvs[b], at_c = surface.uvs[c];
-    const Float u = between(weights, at_a.x, at_b.x, at_c.x), v = between(weights, at_a.y, at_b.y, at_c.y);
-    const Float width = change_of(triangle, weights, u, at_a.x, at_b.x, at_c.x);
-    const Float height = change_of(triangle, weights, v, at_a.y, at_b.y, at_c.y);
-    result.alpha *= sample(surface.base_colour, u, v, width, height).w;
-    const Float texels = max(texels_per_pixel(surface.base_colour, width, height), 1.0f);
+    const CornerValues us{surface.uvs[a].x, surface.uvs[b].x, surface.uvs[c].x};
+    const CornerValues vs{surface.uvs[a].y, surface.uvs[b].y, surface.uvs[c].y};
+    const Float u = between(weights, us), v = between(weights, vs);
+    const TexturePlace place{u, v, change_of(triangle, weights, us, u), change_of(triangle, weights, vs, v)};
+    result.alpha *= sample(surface.base_colour, place).w;
+    const Float texels = max(texels_per_pixel(surface.base_colour, place), 1.0f);
     result.detail = log2(texels);
     return result;
 }
 
-// Two rows of up to a vector of pixels, and at least two columns: squares of four pixels, in which alpha changes
-// from one to the next.
-struct AlphaBlock {
-    alignas(64) float alpha[2][kMostTileLanes];
-    alignas(64) float samples[2][kMostTileLanes];  // covered, of all four, to be rounded down
+// How many samples are covered, to be rounded down, in two rows of up to a vector of pixels, and at least two columns:
+// squares of four pixels, in which alpha changes from one to the next.
+struct CoveredSamples {
+    alignas(64) float rows[2][kMostTileLanes];
 };
 
 // Seen from near the step at the cutoff becomes a ramp as wide as a pixel, from afar alpha is the covered share
 // itself; its height is a number of samples.
-inline void find_coverage(const TileTriangle& triangle, const TileSurface& surface, float left, float top,
-                          int columns, AlphaBlock& block) {
+inline CoveredSamples find_coverage(const TileTriangle& triangle, const TileSurface& surface, float left,
+                                    float top) {
     const float cutoff = surface.lit->material.alpha_cutoff;
-    const int step = lanes();
-    alignas(64) float details[2][kMostTileLanes];
+    const int step = lanes(), columns = std::max(step, 2);
+    alignas(64) float alphas[2][kMostTileLanes], details[2][kMostTileLanes];
     const Float right = to_float(hn::Iota(IntTag(), 0));
     for (int row = 0; row < 2; ++row) {
         for (int i = 0; i < columns; i += step) {
             const AlphaOfPixels at = alpha_at(triangle, surface, right + Float(left + static_cast<float>(i)),
                                               Float(top + static_cast<float>(row)));
-            hn::StoreU(at.alpha.lanes, FloatTag(), block.alpha[row] + i);
+            hn::StoreU(at.alpha.lanes, FloatTag(), alphas[row] + i);
             hn::StoreU(at.detail.lanes, FloatTag(), details[row] + i);
         }
     }
+    CoveredSamples covered;
     for (int row = 0; row < 2; ++row) {
         alignas(64) float beside[kMostTileLanes];
-        for (int i = 0; i < columns; ++i) beside[i] = block.alpha[row][i ^ 1];
+        for (int i = 0; i < columns; ++i) beside[i] = alphas[row][i ^ 1];
         for (int i = 0; i < columns; i += step) {
-            const Float alpha = load(block.alpha[row] + i);
+            const Float alpha = load(alphas[row] + i);
             const Float change =
-                abs(alpha - load(beside + i)) + abs(load(block.alpha[0] + i) - load(block.alpha[1] + i));
+                abs(alpha - load(beside + i)) + abs(load(alphas[0] + i) - load(alphas[1] + i));
             const Float ramp = clamp((alpha - Float(cutoff)) / max(change, 1e-4f) + Float(0.5f), 0.0f, 1.0f);
             const Float samples =
                 mix(ramp, alpha, min(load(details[row] + i), 1.0f)) * Float(4.0f) + Float(0.5f);
-            store(samples, block.samples[row] + i);
+            store(samples, covered.rows[row] + i);
         }
     }
+    return covered;
 }
 
 void CoverCutOut(Tile& tile, const TileTriangle& triangle, const TileSurface& surface, std::uint32_t id) {
@@ -269,24 +287,22 @@ void CoverCutOut(Tile& tile, const TileTriangle& triangle, const TileSurface& su
     for (int x = seen.left / columns * columns; x <= seen.last_x; x += columns) {
         const SampleColumn left(triangle, seen, tile, x), right(triangle, seen, tile, x + columns - step);
         for (int y = seen.top / 2 * 2; y <= seen.last_y; y += 2) {
-            AlphaBlock block;
+            CoveredSamples samples;
             bool known = false;
             for (int row = std::max(y, seen.top); row < y + 2 && row <= seen.last_y; ++row) {
                 for (int i = 0; i < columns; i += step) {
                     const SampleRow samples_of_row(i == 0 ? left : right, row);
                     for (int s = 0; s < kTileSamples; ++s) {
-                        Float nearness;
-                        const int place = row * kTileWidth + x + i;
-                        Mask which = nearer(tile, s, place, samples_of_row.covered(s, nearness), nearness);
-                        which.lanes = hn::And(which.lanes, (nearness > Float(0.0f)).lanes);
-                        if (!which) continue;
+                        const SamplePlace at{.sample = s, .pixel = row * kTileWidth + x + i};
+                        Covered covered = nearer(tile, at, samples_of_row.covered(s));
+                        covered.which = covered.which & (covered.nearness > Float(0.0f));
+                        if (!covered.which) continue;
                         if (!known)
-                            find_coverage(triangle, surface, static_cast<float>(tile.x + x) + 0.5f,
-                                          static_cast<float>(tile.y + y) + 0.5f, columns, block);
+                            samples = find_coverage(triangle, surface, static_cast<float>(tile.x + x) + 0.5f,
+                                                    static_cast<float>(tile.y + y) + 0.5f);
                         known = true;
-                        const Float samples = hn::LoadU(FloatTag(), block.samples[row - y] + i);
-                        which.lanes = hn::And(which.lanes, (samples >= Float(from[s])).lanes);
-                        if (which) keep(tile, s, place, which, nearness, id);
+                        covered.which = covered.which & (load(samples.rows[row - y] + i) >= Float(from[s]));
+                        if (covered.which) keep(tile, at, covered, id);
                     }
                 }
             }
@@ -306,9 +322,8 @@ int CoverTranslucent(const Tile& tile, const TileTriangle& triangle, TileCoverag
             alignas(64) std::int32_t samples[kMostTileLanes];
             IntLanes bits = whole(0);
             for (int s = 0; s < kTileSamples; ++s) {
-                Float nearness;
-                const Mask mask = row.covered(s, nearness);
-                const Mask which = nearer(tile, s, y * kTileWidth + x, mask, nearness);
+                const SamplePlace at{.sample = s, .pixel = y * kTileWidth + x};
+                const Mask which = nearer(tile, at, row.covered(s)).which;
                 bits = hn::Or(bits, hn::IfThenElseZero(hn::RebindMask(IntTag(), which.lanes), whole(1 << s)));
             }
             hn::Store(bits, IntTag(), samples);

@@ -75,10 +75,16 @@ HWY_INLINE vec4 sample_level(const TileImage& image, IntLanes level, Float u, Fl
     return blend(blend(a, b, x.share), blend(c, e, x.share), y.share);
 }
 
+// Where pixels see a texture.
+struct TexturePlace {
+    Float u, v;
+    Float footprint_u, footprint_v;  // how much u and v change over a pixel
+};
+
 // How many texels of the first level a pixel is wide: the largest change of a coordinate, as Mesa takes it.
-HWY_INLINE Float texels_per_pixel(const TileImage& image, Float footprint_u, Float footprint_v) {
-    return max(footprint_u * Float(static_cast<float>(image.width)),
-               footprint_v * Float(static_cast<float>(image.height)));
+HWY_INLINE Float texels_per_pixel(const TileImage& image, const TexturePlace& place) {
+    return max(place.footprint_u * Float(static_cast<float>(image.width)),
+               place.footprint_v * Float(static_cast<float>(image.height)));
 }
 
 // The binary exponent of a positive number, and the number over that power of two, in [1, 2).
@@ -100,10 +106,10 @@ HWY_INLINE Float log2(Float x) {
 }
 
 // An image as a pixel sees it, linear between two levels of detail.
-HWY_INLINE vec4 sample(const TileImage& image, Float u, Float v, Float footprint_u, Float footprint_v) {
+HWY_INLINE vec4 sample(const TileImage& image, const TexturePlace& place) {
     const IntLanes coarsest = whole(image.levels - 1);
-    const Float detail = log2(max(texels_per_pixel(image, footprint_u, footprint_v), 1e-6f));
-    const Float inside_u = wrapped(u, image.wrap_u), inside_v = wrapped(v, image.wrap_v);
+    const Float detail = log2(max(texels_per_pixel(image, place), 1e-6f));
+    const Float inside_u = wrapped(place.u, image.wrap_u), inside_v = wrapped(place.v, image.wrap_v);
     const Float finer = floor(detail);
     IntLanes level = to_int(finer);
     Float further = detail - finer;
@@ -138,38 +144,4 @@ HWY_INLINE Float lit_share(const TileLights& lights, Float x, Float y, Float dep
     const Float across = x - left;
     const Float low = a + across * (b - a), high = c + across * (e - c);
     return low + (y - bottom) * (high - low);
-}
-
-// The part of the first light that arrives. Where the penumbra is narrow the disc it covers on the map is filtered
-// along a spiral of golden angles (Vogel); the plane of the surface is compared, not its depth alone.
-inline Float visibility(const TileLights& lights, const PixelShadow& shadow, const vec3& position,
-                        const vec3& normal, Float vertex_visible, Float vertex_radius) {
-    constexpr int kTaps = 16;
-    const Float radius = max(vertex_radius, shadow.least);
-    const Float wide = smoothstep(0.6f * shadow.wide, shadow.wide, radius);
-    const Mask sought{hn::And((vertex_radius > Float(0.0f)).lanes, (wide < Float(1.0f)).lanes)};
-    if (!sought) return vertex_visible;
-    const Mat4& map = shadow.map_from_world;
-    const vec3 x_axis(map[0][0], map[1][0], map[2][0]), y_axis(map[0][1], map[1][1], map[2][1]),
-        z_axis(map[0][2], map[1][2], map[2][2]);
-    const vec3 point = position + normal * Float(shadow.offset);
-    const Float side = static_cast<float>(lights.side);
-    const Float x = (dot(x_axis, point) + Float(map[3][0])) * side - Float(0.5f);
-    const Float y = (dot(y_axis, point) + Float(map[3][1])) * side - Float(0.5f);
-    const Float depth = dot(z_axis, point) + Float(map[3][2]) - Float(shadow.bias);
-    const Float seen_z = max(dot(z_axis, normal) * Float(-shadow.range), 0.1f);
-    const Float per_depth = shadow.extent / shadow.range;
-    const Float slope_x = dot(x_axis, normal) * Float(shadow.extent) / seen_z * per_depth;
-    const Float slope_y = dot(y_axis, normal) * Float(shadow.extent) / seen_z * per_depth;
-    Float right = radius / Float(shadow.extent), up = 0.0f, sum = 0.0f;
-    for (int i = 0; i < kTaps; ++i) {
-        const Float reach = std::sqrt((static_cast<float>(i) + 0.5f) / kTaps);
-        const Float step_x = right * reach, step_y = up * reach;
-        sum += lit_share(lights, x + step_x * side, y + step_y * side,
-                         depth + step_x * slope_x + step_y * slope_y);
-        const Float turned = right * Float(-0.737369f) + up * Float(-0.675490f);
-        up = right * Float(0.675490f) + up * Float(-0.737369f);
-        right = turned;
-    }
-    return mix(vertex_visible, mix(sum * Float(1.0f / kTaps), vertex_visible, wide), sought);
 }
