@@ -66,8 +66,8 @@ void set_anisotropy(SurfacePoint& point, const Material& material, const Vec4& t
     point.anisotropy = material.anisotropy * texel.b;
     const Vec2 direction = Vec2(texel) * 2.0f - 1.0f;
     const float cosine = std::cos(material.anisotropy_turn), sine = std::sin(material.anisotropy_turn);
-    point.rough_along = shading::rough_along(point.normal, Vec3(tangent), tangent.w < 0 ? -1.0f : 1.0f,
-                                             cosine * direction.x - sine * direction.y,
+    const Vec4 sided(Vec3(tangent), tangent.w < 0 ? -1.0f : 1.0f);
+    point.rough_along = shading::rough_along(point.normal, sided, cosine * direction.x - sine * direction.y,
                                              sine * direction.x + cosine * direction.y);
 }
 

@@ -43,9 +43,8 @@ uniform float anisotropy_turn;
 const float anisotropy = 0.0;
 #endif
 
-ShadedPoint point_at(vec3 position, vec3 normal, vec3 mirror, float rough,
-                     float ambient_occlusion) {
-    return ShadedPoint(normal, normalize(eye - position), mirror, clamp(rough, 0.2, 1.0), ambient_occlusion,
+ShadedPoint point_at(vec3 position, vec3 normal, vec3 mirror, float rough) {
+    return ShadedPoint(normal, normalize(eye - position), mirror, clamp(rough, 0.2, 1.0), 1.0,
                        scatter, coat, coat_roughness, anisotropy, normal);
 }
 
@@ -119,9 +118,10 @@ flat out float order_of_samples;
 void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
 #ifdef PER_VERTEX
-    ShadedPoint point = point_at(position, normal, reflectance, roughness, ambient_occlusion);
+    ShadedPoint point = point_at(position, normal, reflectance, roughness);
+    point.ambient_occlusion = ambient_occlusion;
 #ifdef ANISOTROPIC
-    point.along = rough_along(normal, tangent.xyz, tangent.w, cos(anisotropy_turn), sin(anisotropy_turn));
+    point.along = rough_along(normal, tangent, cos(anisotropy_turn), sin(anisotropy_turn));
 #endif
 #ifdef PIXEL_SHADOW
     Lit lit = light_on(point, 0.0);
@@ -333,8 +333,8 @@ void main() {
 #ifdef SHADOW
     visible = visibility(normal);
 #endif
-    ShadedPoint point = point_at(world_position, normal, mirror_of(base.rgb, metal, reflectance), rough,
-                                 ambient_occlusion);
+    ShadedPoint point = point_at(world_position, normal, mirror_of(base.rgb, metal, reflectance), rough);
+    point.ambient_occlusion = ambient_occlusion;
 #ifdef ANISOTROPIC
     vec2 turn = vec2(cos(anisotropy_turn), sin(anisotropy_turn));
 #ifdef ANISOTROPY_MAP
@@ -342,11 +342,11 @@ void main() {
     turn = mat2(turn, -turn.y, turn.x) * (direction.xy * 2.0 - 1.0);
     point.anisotropy *= direction.z;
 #endif
-    float side = world_tangent.w;
+    vec4 tangent = world_tangent;
 #ifdef DOUBLE_SIDED
-    if (!gl_FrontFacing) side = -side;  // the bitangent is that of the front
+    if (!gl_FrontFacing) tangent.w = -tangent.w;  // the bitangent is that of the front
 #endif
-    point.along = rough_along(normal, world_tangent.xyz, side, turn.x, turn.y);
+    point.along = rough_along(normal, tangent, turn.x, turn.y);
 #endif
     vec3 colour = seen(base.rgb, metal, light_on(point, visible), glow);
     result = vec4(encoded_srgb(neutral_tone(colour)) * alpha, alpha);

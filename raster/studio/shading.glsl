@@ -28,6 +28,14 @@ struct Illuminant {
     float size;  // sine of its angular radius; 0 for one direction, as of one ray to a light
 };
 
+// How a light and the eye lie to a point, whose normal is half-way between them in a mirror.
+struct Reflection {
+    vec3 half_way;  // between the light and the eye
+    float aligned;  // cosine between the normal and that
+    float faced;    // cosine between the normal and the light, at least 0
+    float facing;   // facing_of
+};
+
 struct Lit {
     vec3 diffuse;   // to be multiplied with the surface's colour
     vec3 mirrored;  // as it is
@@ -103,62 +111,64 @@ SHARED float softened(float faced, float soft) {
 
 // GGX, with the height-correlated masking of Hammon's fit; times the cosine to the light, over that of a white
 // Lambert surface. A light of some size widens the peak, which keeps what it holds.
-SHARED float highlight(float rough, float size, float aligned, float faced, float facing) {
+SHARED float highlight(float rough, float size, Reflection way) {
     float alpha = rough * rough;
     float wide2 = min(alpha * alpha + 0.25f * size * size, 1.0f);
-    float spread = aligned * aligned * (wide2 - 1.0f) + 1.0f;
+    float spread = way.aligned * way.aligned * (wide2 - 1.0f) + 1.0f;
     float peak = wide2 / (spread * spread);
-    float masking = 0.5f / mix(2.0f * faced * facing, faced + facing, alpha);
-    return peak * masking * faced;
+    float masking = 0.5f / mix(2.0f * way.faced * way.facing, way.faced + way.facing, alpha);
+    return peak * masking * way.faced;
 }
 
-// The direction along which a surface is rougher, from its tangent and bitangent, whose handedness is `side`: `turn`
-// holds the shares of both. At right angles to the normal, or 0 where there is none.
-SHARED vec3 rough_along(vec3 normal, vec3 tangent, float side, float turn_x, float turn_y) {
-    vec3 along = tangent * turn_x + cross(normal, tangent) * (turn_y * side);
+// The direction along which a surface is rougher, from its tangent and bitangent, whose handedness is `tangent.w`:
+// `turn` holds the shares of both. At right angles to the normal, or 0 where there is none.
+SHARED vec3 rough_along(vec3 normal, vec4 tangent, float turn_x, float turn_y) {
+    vec3 right = vec3(tangent.x, tangent.y, tangent.z);
+    vec3 along = right * turn_x + cross(normal, right) * (turn_y * tangent.w);
     along = along - normal * dot(normal, along);
     return along * (1.0f / sqrt(max(dot(along, along), 1e-12f)));
 }
 
 // KHR_materials_anisotropy: D_GGX_anisotropic and V_GGX_anisotropic, times what `highlight` is times. As there a light
 // of some size widens the peak. We differ: what is reflected on, and light from everywhere, know `rough` alone.
-SHARED float stretched_highlight(ShadedPoint point, vec3 towards, float size, vec3 half_way, float faced,
-                                 float facing) {
+SHARED float stretched_highlight(ShadedPoint point, Illuminant light, Reflection way) {
     vec3 across = cross(point.normal, point.along);
     float alpha = point.rough * point.rough;
     float alpha_along = mix(alpha, 1.0f, point.anisotropy * point.anisotropy);
-    float wide_along = sqrt(min(alpha_along * alpha_along + 0.25f * size * size, 1.0f));
-    float wide_across = sqrt(min(alpha * alpha + 0.25f * size * size, 1.0f));
+    float wide_along = sqrt(min(alpha_along * alpha_along + 0.25f * light.size * light.size, 1.0f));
+    float wide_across = sqrt(min(alpha * alpha + 0.25f * light.size * light.size, 1.0f));
     float both = wide_along * wide_across;
-    vec3 spread = vec3(wide_across * dot(point.along, half_way), wide_along * dot(across, half_way),
-                       both * dot(point.normal, half_way));
+    vec3 spread = vec3(wide_across * dot(point.along, way.half_way), wide_along * dot(across, way.half_way),
+                       both * dot(point.normal, way.half_way));
     float narrow = both / max(dot(spread, spread), 1e-12f);
     float peak = both * narrow * narrow;
-    vec3 eye = vec3(alpha_along * dot(point.along, point.towards_eye), alpha * dot(across, point.towards_eye), facing);
-    vec3 light = vec3(alpha_along * dot(point.along, towards), alpha * dot(across, towards), faced);
-    float masking = 0.5f / (faced * sqrt(dot(eye, eye)) + facing * sqrt(dot(light, light)));
-    return peak * min(masking, 1.0f) * faced;
+    vec3 from = vec3(alpha_along * dot(point.along, light.towards), alpha * dot(across, light.towards), way.faced);
+    vec3 eye = point.towards_eye;
+    vec3 to = vec3(alpha_along * dot(point.along, eye), alpha * dot(across, eye), way.facing);
+    float masking = 0.5f / (way.faced * sqrt(dot(to, to)) + way.facing * sqrt(dot(from, from)));
+    return peak * min(masking, 1.0f) * way.faced;
 }
 
 // `arrives` in [0, 1]: the part of the light that is not hidden. A full coat mirrors its lights whatever shades
 // the surface: lids, lashes and brow hide but a part of the large face of a lamp from an eye, and an eye without
 // its highlight looks dead.
 SHARED Lit light_from(ShadedPoint point, Illuminant light, float arrives) {
-    float facing = facing_of(point);
     float cosine = dot(point.normal, light.towards);
-    float faced = max(cosine, 0.0f);
-    vec3 half_way = normalize(light.towards + point.towards_eye);
-    float aligned = max(dot(point.normal, half_way), 0.0f);
-    float grazing = 1.0f - max(dot(point.towards_eye, half_way), 0.0f);
+    Reflection way;
+    way.half_way = normalize(light.towards + point.towards_eye);
+    way.aligned = max(dot(point.normal, way.half_way), 0.0f);
+    way.faced = max(cosine, 0.0f);
+    way.facing = facing_of(point);
+    float grazing = 1.0f - max(dot(point.towards_eye, way.half_way), 0.0f);
     float grazing5 = grazing * grazing * (grazing * grazing) * grazing;
     vec3 fresnel = point.mirror + (mirrored_at_grazing(point.mirror) - point.mirror) * grazing5;
     float coated = point.coat * (0.04f + 0.96f * grazing5);
     float softness = light.wrap + light.size;
     vec3 soft_faced = vec3(softened(cosine, softness + point.scatter.x), softened(cosine, softness + point.scatter.y),
                            softened(cosine, softness + point.scatter.z));
-    float shine = highlight(point.rough, light.size, aligned, faced, facing);
+    float shine = highlight(point.rough, light.size, way);
     if (point.anisotropy > 0.0f) {
-        float stretched = stretched_highlight(point, light.towards, light.size, half_way, faced, facing);
+        float stretched = stretched_highlight(point, light, way);
         shine = mix(shine, stretched, point.anisotropy > 0.0f);
     }
     Lit lit;
@@ -167,8 +177,7 @@ SHARED Lit light_from(ShadedPoint point, Illuminant light, float arrives) {
                    (arrives * shine);
     if (point.coat > 0.0f) {
         float shines = mix(arrives, 1.0f, point.coat * point.coat);
-        lit.mirrored += light.radiance *
-                        (coated * shines * highlight(max(point.coat_rough, 0.1f), light.size, aligned, faced, facing));
+        lit.mirrored += light.radiance * (coated * shines * highlight(max(point.coat_rough, 0.1f), light.size, way));
     }
     return lit;
 }

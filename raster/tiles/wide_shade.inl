@@ -16,10 +16,11 @@ struct WideVertices {
                 hn::Load(FloatTag(), numbers[2])};
     }
 
-    HWY_INLINE Float load_w(const Vec4* from) const {
-        alignas(64) float numbers[kMostLanes] = {};
-        for (std::size_t k = 0; k < indices.size(); ++k) numbers[k] = from[indices[k]].w;
-        return {hn::Load(FloatTag(), numbers)};
+    HWY_INLINE vec4 load4(const Vec4* from) const {
+        alignas(64) float w[kMostLanes] = {};
+        for (std::size_t k = 0; k < indices.size(); ++k) w[k] = from[indices[k]].w;
+        const vec3 others = load(from);
+        return {others.x, others.y, others.z, hn::Load(FloatTag(), w)};
     }
 
     HWY_INLINE void store(const vec3& values, Vec3* to) const {
@@ -87,9 +88,8 @@ void LightVertices(const TileSurface& surface, const TileLights& lights,
         point.ambient_occlusion = load(occlusion);
         if (features.anisotropic) {
             point.anisotropy = material.anisotropy;
-            point.along =
-                rough_along(point.normal, some.load(surface.tangents), some.load_w(surface.tangents),
-                            std::cos(material.anisotropy_turn), std::sin(material.anisotropy_turn));
+            point.along = rough_along(point.normal, some.load4(surface.tangents),
+                                      std::cos(material.anisotropy_turn), std::sin(material.anisotropy_turn));
         }
         Lit lit = light_on(lights, features, point, features.pixel_shadow ? Float(0.0f) : load(visible));
         if (features.pixel_shadow) {
@@ -282,11 +282,11 @@ struct WideItems {
             up = image.y * Float(2.0f) - Float(1.0f);
             point.anisotropy *= image.z;
         }
-        const vec4 tangent = load4(items.tangent, i);
+        vec4 tangent = load4(items.tangent, i);
         // The bitangent is that of the front.
-        const Float front = surface.lit->features.double_sided ? load(items.facing + i) : Float(1.0f);
-        point.along = rough_along(point.normal, rgb(tangent), tangent.w * front, cosine * right - sine * up,
-                                  sine * right + cosine * up);
+        if (surface.lit->features.double_sided) tangent.w *= load(items.facing + i);
+        point.along =
+            rough_along(point.normal, tangent, cosine * right - sine * up, sine * right + cosine * up);
     }
 
     // Light is worked out here.

@@ -101,7 +101,8 @@ TEST(Shading, KeepsWhatAHighlightHoldsWhenItsLightIsLarge) {
         constexpr int kSteps = 20000;
         for (int i = 0; i < kSteps; ++i) {
             const double cosine = (i + 0.5) / kSteps;
-            sum += 4 * shading::highlight(0.3f, size, static_cast<float>(cosine), 1, 1) * cosine * 2 / kSteps;
+            const shading::Reflection way{.aligned = static_cast<float>(cosine), .faced = 1, .facing = 1};
+            sum += 4 * shading::highlight(0.3f, size, way) * cosine * 2 / kSteps;
         }
         EXPECT_NEAR(sum, 1, 1e-3) << size;
     }
@@ -130,7 +131,7 @@ ShadedPoint brushed(float strength, float rough, float turn) {
     ShadedPoint point = kFaced;
     point.rough = rough;
     point.anisotropy = strength;
-    point.along = shading::rough_along(point.normal, {1, 0, 0}, 1, std::cos(turn), std::sin(turn));
+    point.along = shading::rough_along(point.normal, {1, 0, 0, 1}, std::cos(turn), std::sin(turn));
     return point;
 }
 
@@ -142,8 +143,11 @@ TEST(Shading, OfAStretchedHighlightIsThatOfKhronos) {
                     ShadedPoint point = brushed(strength, rough, turn);
                     point.towards_eye = normalize(Vec3(0.2f, -0.4f, 1));
                     const Vec3 light = normalize(towards);
-                    const float ours = shading::stretched_highlight(
-                        point, light, 0, normalize(light + point.towards_eye), light.z, point.towards_eye.z);
+                    const float ours =
+                        shading::stretched_highlight(point, {.towards = light},
+                                                     {.half_way = normalize(light + point.towards_eye),
+                                                      .faced = light.z,
+                                                      .facing = point.towards_eye.z});
                     const double theirs =
                         khronos_highlight(strength, rough, {std::cos(turn), std::sin(turn), 0},
                                           glm::dvec3(light), glm::dvec3(point.towards_eye));
@@ -184,7 +188,9 @@ TEST(Shading, KeepsWhatAStretchedHighlightHolds) {
                             sine = std::sqrt(1 - cosine * cosine);
                 const Vec3 half(sine * std::cos(turn), sine * std::sin(turn), cosine);
                 // The light straight on: without masking, the formula is a quarter of the peak.
-                const float peak = 4 * shading::stretched_highlight(point, {0, 0, 1}, size, half, 1, 1);
+                const Illuminant light{.towards = {0, 0, 1}, .size = size};
+                const float peak = 4 * shading::stretched_highlight(
+                                           point, light, {.half_way = half, .faced = 1, .facing = 1});
                 sum += static_cast<double>(peak * cosine) * 2 / kSteps / kTurns;
             }
         }
@@ -194,7 +200,7 @@ TEST(Shading, KeepsWhatAStretchedHighlightHolds) {
 
 TEST(Shading, TurnsADirectionFromTheTangentToTheBitangent) {
     const auto along = [](float side, float x, float y) {
-        return shading::rough_along({0, 0, 1}, normalize(Vec3(1, 0, 0.5f)), side, x, y);
+        return shading::rough_along({0, 0, 1}, Vec4(normalize(Vec3(1, 0, 0.5f)), side), x, y);
     };
     EXPECT_LT(distance(along(1, 1, 0), Vec3(1, 0, 0)), 1e-6f);
     EXPECT_LT(distance(along(1, 0, 1), Vec3(0, 1, 0)), 1e-6f);
