@@ -54,19 +54,22 @@ void convert_luma(const std::uint32_t* __restrict pixels, int count, std::uint8_
     }
 }
 
-// The sums of vertical pairs: red in the low, blue in the high half of one array, green in the other.
+// The sums of vertical pairs in two rows: red in the low, blue in the high half of one array, green in the other.
 CHIRONOMIA_VECTORISED
-void add_rows(const std::uint32_t* __restrict upper, const std::uint32_t* __restrict lower, int count,
-              std::uint32_t* __restrict red_blue, std::uint32_t* __restrict green) {
+void add_rows(const std::uint32_t* __restrict upper, int count, std::uint32_t* __restrict red_blue,
+              std::uint32_t* __restrict green) {
+    const std::uint32_t* lower = upper + count;
     for (int i = 0; i < count; ++i) {
         red_blue[i] = (upper[i] & 0xff00ff) + (lower[i] & 0xff00ff);
         green[i] = (upper[i] >> 8 & 255) + (lower[i] >> 8 & 255);
     }
 }
 
+// `red_blue` (2 * count), and behind it as many greens.
 CHIRONOMIA_VECTORISED
-void convert_chroma(const std::uint32_t* __restrict red_blue, const std::uint32_t* __restrict greens,
-                    int count, std::uint8_t* __restrict cb, std::uint8_t* __restrict cr) {
+void convert_chroma(const std::uint32_t* __restrict red_blue, int count, std::uint8_t* __restrict cb,
+                    std::uint8_t* __restrict cr) {
+    const std::uint32_t* greens = red_blue + 2 * count;
     for (int i = 0; i < count; ++i) {
         const std::uint32_t pair = red_blue[2 * i] + red_blue[2 * i + 1];
         const int red = static_cast<int>(pair & 0xffff);
@@ -84,14 +87,13 @@ void convert_chroma(const std::uint32_t* __restrict red_blue, const std::uint32_
 void convert_to_i420(const Frame& frame, const I420Planes& planes) {
     assert(frame.width % 2 == 0 && frame.height % 2 == 0);
     const size_t width = static_cast<size_t>(frame.width);
-    std::vector<std::uint32_t> rows(2 * width), red_blue(width), green(width);
+    std::vector<std::uint32_t> rows(2 * width), sums(2 * width);
     for (int row = 0; row < frame.height; row += 2) {
         std::memcpy(rows.data(), &frame.rgba[static_cast<size_t>(row) * width * 4], 2 * width * 4);
-        const std::uint32_t* lower = rows.data() + width;
         convert_luma(rows.data(), frame.width, planes.y + row * planes.y_stride);
-        convert_luma(lower, frame.width, planes.y + (row + 1) * planes.y_stride);
-        add_rows(rows.data(), lower, frame.width, red_blue.data(), green.data());
-        convert_chroma(red_blue.data(), green.data(), frame.width / 2, planes.cb + row / 2 * planes.cb_stride,
+        convert_luma(rows.data() + width, frame.width, planes.y + (row + 1) * planes.y_stride);
+        add_rows(rows.data(), frame.width, sums.data(), sums.data() + width);
+        convert_chroma(sums.data(), frame.width / 2, planes.cb + row / 2 * planes.cb_stride,
                        planes.cr + row / 2 * planes.cr_stride);
     }
 }
