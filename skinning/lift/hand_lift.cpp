@@ -133,24 +133,24 @@ Landmark point_of(const FingerModel& finger, size_t point, bool left) {
 
 class HandFrames {
   public:
-    HandFrames(const PictureBody& body, std::span<const HandArm> arms, bool left, const PinholeCamera& camera,
-               double fps)
-        : body_(body), arms_(arms), left_(left), camera_(camera), neutral_(neutral_axes(arms, left, fps)) {
+    explicit HandFrames(const HandSight& sight)
+        : sight_(sight), neutral_(neutral_axes(sight.arms, sight.left, sight.fps)) {
         size_ = find_size();
     }
 
-    size_t size() const { return arms_.size(); }
+    size_t size() const { return sight_.arms.size(); }
 
     bool shows(size_t t) const {
         int knuckles = 0;
-        for (size_t f = 1; f < 5; ++f) knuckles += body_.sees(t, point_of(finger_models()[f], 0, left_));
+        for (size_t f = 1; f < 5; ++f)
+            knuckles += sight_.body.sees(t, point_of(finger_models()[f], 0, sight_.left));
         return knuckles >= 3;
     }
 
-    Axes axes(size_t t, const HandAngles& angles) const { return axes_of(neutral_[t], angles, left_); }
+    Axes axes(size_t t, const HandAngles& angles) const { return axes_of(neutral_[t], angles, sight_.left); }
 
     glm::dvec3 place(size_t t, const Axes& axes, const glm::dvec3& point) const {
-        return arms_[t].wrist + axes * (point * size_);
+        return sight_.arms[t].wrist + axes * (point * size_);
     }
 
     double palm_cost(size_t t, const HandAngles& angles) const {
@@ -158,7 +158,7 @@ class HandFrames {
         if (!shows(t)) return cost;
         const Axes hand = axes(t, angles);
         for (const FingerModel& finger : finger_models())
-            cost += point_cost(t, point_of(finger, 0, left_), place(t, hand, finger.root));
+            cost += point_cost(t, point_of(finger, 0, sight_.left), place(t, hand, finger.root));
         return cost;
     }
 
@@ -169,30 +169,31 @@ class HandFrames {
                        square((bend.middle - Tuning::kFingerRest.middle) / Tuning::kFingerSpread));
         const std::array<glm::dvec3, 4> points = finger_points(finger, bend);
         for (size_t i = 1; i < 4; ++i) {
-            if (shows(t)) cost += point_cost(t, point_of(finger, i, left_), place(t, hand, points[i]));
+            if (shows(t)) cost += point_cost(t, point_of(finger, i, sight_.left), place(t, hand, points[i]));
         }
         return cost;
     }
 
   private:
     double point_cost(size_t t, Landmark landmark, const glm::dvec3& place) const {
-        if (!body_.sees(t, landmark)) return 0;
-        const Vec2 off = camera_.point(place) - body_.at(t, landmark);
+        if (!sight_.body.sees(t, landmark)) return 0;
+        const Vec2 off = sight_.camera.point(place) - sight_.body.at(t, landmark);
         const double error =
-            static_cast<double>(glm::length(off)) / camera_.unit / HandTuning::kPointSureness;
+            static_cast<double>(glm::length(off)) / sight_.camera.unit / HandTuning::kPointSureness;
         return HandTuning::kPointWeight * std::log1p(square(error) / HandTuning::kPointOutlier);
     }
 
     // The longest that the palm looks against the model's.
     double find_size() const {
         std::vector<double> sizes;
-        for (size_t t = 0; t < arms_.size(); ++t) {
+        for (size_t t = 0; t < sight_.arms.size(); ++t) {
             for (const size_t f : {1, 2, 3}) {
                 const FingerModel& finger = finger_models()[f];
-                const Landmark knuckle = point_of(finger, 0, left_);
-                if (!body_.sees(t, knuckle)) continue;
+                const Landmark knuckle = point_of(finger, 0, sight_.left);
+                if (!sight_.body.sees(t, knuckle)) continue;
                 const glm::dvec3 palm =
-                    camera_.place(body_.at(t, knuckle), arms_[t].wrist.z) - arms_[t].wrist;
+                    sight_.camera.place(sight_.body.at(t, knuckle), sight_.arms[t].wrist.z) -
+                    sight_.arms[t].wrist;
                 sizes.push_back(std::hypot(palm.x, palm.y) / glm::length(finger.root));
             }
         }
@@ -200,10 +201,7 @@ class HandFrames {
         return std::clamp(quantile(std::move(sizes), 0.9), 0.75, 1.3);
     }
 
-    const PictureBody& body_;
-    std::span<const HandArm> arms_;
-    bool left_;
-    PinholeCamera camera_;
+    const HandSight& sight_;
     std::vector<Axes> neutral_;
     double size_ = 1;
 };
@@ -296,17 +294,16 @@ std::vector<FingerBend> find_bends(const HandFrames& frames, std::span<const Han
 
 }  // namespace
 
-std::vector<LiftedHand> lift_hand(const PictureBody& body, std::span<const HandArm> arms, bool left,
-                                  const PinholeCamera& camera, double fps) {
-    const HandFrames frames(body, arms, left, camera, fps);
+std::vector<LiftedHand> lift_hand(const HandSight& sight) {
+    const HandFrames frames(sight);
     bool ever = false;
-    for (size_t t = 0; t < arms.size(); ++t) ever |= frames.shows(t);
+    for (size_t t = 0; t < frames.size(); ++t) ever |= frames.shows(t);
     if (!ever) return {};
-    std::vector<LiftedHand> hands(arms.size());
-    const std::vector<HandAngles> palms = find_palms(frames, fps);
+    std::vector<LiftedHand> hands(frames.size());
+    const std::vector<HandAngles> palms = find_palms(frames, sight.fps);
     for (size_t f = 0; f < 5; ++f) {
         const FingerModel& finger = finger_models()[f];
-        const std::vector<FingerBend> bends = find_bends(frames, palms, finger, fps);
+        const std::vector<FingerBend> bends = find_bends(frames, palms, finger, sight.fps);
         for (size_t t = 0; t < hands.size(); ++t) {
             const Axes axes = frames.axes(t, palms[t]);
             const std::array<glm::dvec3, 4> points = finger_points(finger, bends[t]);

@@ -20,6 +20,15 @@ struct HandArm {
     double yaw = 0;  // of the trunk [rad]
 };
 
+// A hand as a camera sees it over a clip.
+struct HandSight {
+    const PictureBody& body;
+    const PinholeCamera& camera;
+    std::span<const HandArm> arms;  // (T)
+    bool left = false;              // the person's left hand
+    double fps = 0;
+};
+
 // Thumb to little finger, root to tip, in space [m].
 using LiftedHand = std::array<std::array<glm::dvec3, 4>, 5>;
 
@@ -28,7 +37,6 @@ using LiftedHand = std::array<std::array<glm::dvec3, 4>, 5>;
 // that wrist and forearm can do and that moves least. Each finger then bends within its joints' limits to where its
 // points are seen. In frames that show less than three knuckles the hand is straight on its forearm. The result is
 // empty for a hand that no frame shows.
-std::vector<LiftedHand> lift_hand(const PictureBody& body, std::span<const HandArm> arms, bool left,
-                                  const PinholeCamera& camera, double fps);
+std::vector<LiftedHand> lift_hand(const HandSight& sight);
 
 }  // namespace chironomia

@@ -84,8 +84,8 @@ glm::dvec3 root_of(const Trunk& trunk, const LimbPoints& limb) {
     return limb.left ? trunk.left_hip : trunk.right_hip;
 }
 
-// What is known of a clip before its limbs are lifted.
-struct LimbContext {
+// What is known of a clip once its trunk is lifted.
+struct LiftContext {
     const CleanPicture& picture;
     const BodyScale& scale;
     const std::vector<Trunk>& trunks;             // (T)
@@ -111,7 +111,7 @@ double swing_of(const CleanPicture& picture, const LimbPoints& points) {
     return std::min(kFastestSwing, fastest);
 }
 
-LiftedLimb see_limb(const LimbContext& clip, const LimbPoints& points) {
+LiftedLimb see_limb(const LiftContext& clip, const LimbPoints& points) {
     const PictureBody& body = clip.picture.body;
     const BodyLengths& lengths = clip.scale.lengths;
     const bool arm = points.kind == LimbKind::arm;
@@ -141,18 +141,18 @@ void make_alike(LimbShape& one, LimbShape& other) {
     }
 }
 
-LimbSight sight_of(const LiftedLimb& limb, const LimbContext& clip) {
+LimbSight sight_of(const LiftedLimb& limb, const LiftContext& clip) {
     return {.limb = limb.seen, .trunks = clip.trunks, .camera = clip.scale.camera, .fps = clip.fps};
 }
 
-void lift_legs(std::array<LiftedLimb, 2>& legs, const LimbContext& clip) {
+void lift_legs(std::array<LiftedLimb, 2>& legs, const LiftContext& clip) {
     for (LiftedLimb& leg : legs)
         leg.places = lift_limb(sight_of(leg, clip), standing_shape(leg.seen, leg.shape, clip.scale.camera));
 }
 
 // The first round finds how near the arms are to the camera, and so the lengths of their bones. The later rounds also
 // use the postures that both arms take most often.
-void lift_arms(std::array<LiftedLimb, 2>& arms, const LimbContext& clip) {
+void lift_arms(std::array<LiftedLimb, 2>& arms, const LiftContext& clip) {
     for (LiftedLimb& arm : arms) {
         arm.places = lift_limb(sight_of(arm, clip), arm.shape);
         arm.shape = measured_shape(arm.seen, arm.places, arm.shape);
@@ -168,7 +168,7 @@ void lift_arms(std::array<LiftedLimb, 2>& arms, const LimbContext& clip) {
     }
 }
 
-void set_hands(SpacePoints& points, const LimbContext& clip, const LiftedLimb& arm) {
+void set_hands(SpacePoints& points, const LiftContext& clip, const LiftedLimb& arm) {
     const bool left = arm.points.left;
     std::vector<HandArm> arms;
     for (size_t t = 0; t < clip.trunks.size(); ++t) {
@@ -177,8 +177,11 @@ void set_hands(SpacePoints& points, const LimbContext& clip, const LiftedLimb& a
                         .wrist = arm.places[t].tip,
                         .yaw = clip.trunks[t].yaw});
     }
-    const std::vector<LiftedHand> hands =
-        lift_hand(clip.picture.body, arms, left, clip.scale.camera, clip.fps);
+    const std::vector<LiftedHand> hands = lift_hand({.body = clip.picture.body,
+                                                     .camera = clip.scale.camera,
+                                                     .arms = arms,
+                                                     .left = left,
+                                                     .fps = clip.fps});
     for (size_t t = 0; t < hands.size(); ++t) {
         for (size_t f = 0; f < 5; ++f) {
             const auto first = static_cast<size_t>(finger_models()[f].first);
@@ -190,7 +193,7 @@ void set_hands(SpacePoints& points, const LimbContext& clip, const LiftedLimb& a
     }
 }
 
-void set_limbs(SpacePoints& points, const LimbContext& clip) {
+void set_limbs(SpacePoints& points, const LiftContext& clip) {
     const PictureBody& body = clip.picture.body;
     for (size_t first = 0; first < kLimbs.size(); first += 2) {
         if (!body.has(kLimbs[first].at.mid) && !body.has(kLimbs[first + 1].at.mid)) continue;
@@ -219,18 +222,18 @@ void set_trunk(SpacePoints& points, const std::vector<Trunk>& trunks) {
 }
 
 // Places the turned model of a head where the middle of its seen points falls on the picture.
-void set_head(SpacePoints& points, const PictureBody& body, const BodyScale& scale,
-              const std::vector<Trunk>& trunks, const std::vector<HeadAngles>& heads) {
+void set_head(SpacePoints& points, const LiftContext& clip, const std::vector<HeadAngles>& heads) {
+    const PictureBody& body = clip.picture.body;
     for (size_t t = 0; t < heads.size(); ++t) {
         if (!heads[t].known) continue;
         const Quat turn = to_turn(heads[t]);
-        const double depth = trunks[t].thorax.z + kEarsAhead;
+        const double depth = clip.trunks[t].thorax.z + kEarsAhead;
         glm::dvec3 off(0);
         double seen = 0;
         for (const HeadPoint& point : head_points()) {
             if (!body.sees(t, point.landmark)) continue;
             const Vec3 turned = turn * point.place;
-            off += scale.camera.place(body.at(t, point.landmark), depth + turned.z) - glm::dvec3(turned);
+            off += clip.scale.camera.place(body.at(t, point.landmark), depth + turned.z) - glm::dvec3(turned);
             ++seen;
         }
         for (const HeadPoint& point : head_points()) {
@@ -287,11 +290,12 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
     const std::vector<Trunk> trunks =
         lift_trunk(body, scale, {.heads = heads, .postures = postures}, motion.fps);
 
+    const LiftContext clip{
+        .picture = clean, .scale = scale, .trunks = trunks, .postures = postures, .fps = motion.fps};
     SpacePoints points(body.frames());
     set_trunk(points, trunks);
-    set_head(points, body, scale, trunks, heads);
-    set_limbs(points,
-              {.picture = clean, .scale = scale, .trunks = trunks, .postures = postures, .fps = motion.fps});
+    set_head(points, clip, heads);
+    set_limbs(points, clip);
     points.to_real_camera(walking);
 
     Lift lifted{.motion = {},

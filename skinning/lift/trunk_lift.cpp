@@ -98,8 +98,9 @@ std::vector<double> head_yaws(std::span<const HeadAngles> heads, double fps) {
     return zero_phase_low_pass(yaws, 0.5, fps);
 }
 
-double flat_distance(const PictureBody& body, size_t t, Landmark a, Landmark b, double unit) {
-    return static_cast<double>(glm::distance(body.at(t, a), body.at(t, b))) / unit;
+// In the unit of the picture.
+double flat_distance(const PictureBody& body, size_t t, Landmark a, Landmark b) {
+    return static_cast<double>(glm::distance(body.at(t, a), body.at(t, b)));
 }
 
 // How sure it is that the shoulders are turned as the head is.
@@ -124,7 +125,7 @@ std::vector<std::optional<double>> flat_widths(const PictureBody& body, Landmark
     std::vector<std::optional<double>> widths(body.frames());
     for (size_t t = 0; t < body.frames(); ++t) {
         if (!body.sees(t, left) || !body.sees(t, right)) continue;
-        const double width = flat_distance(body, t, left, right, unit);
+        const double width = flat_distance(body, t, left, right) / unit;
         widths[t] = body.at(t, left).x < body.at(t, right).x ? -width : width;
     }
     return widths;
@@ -190,7 +191,7 @@ std::vector<double> lean(const PictureBody& body, const BodyScale& scale, double
         const double unusual = angle / ((angle > 0 ? 14 : 8) * kDegree);
         double cost = 0.5 * unusual * unusual;
         if (!sees(t)) return 4 * cost;
-        const double seen = flat_distance(body, t, Landmark::thorax, Landmark::pelvis, scale.camera.unit);
+        const double seen = flat_distance(body, t, Landmark::thorax, Landmark::pelvis) / scale.camera.unit;
         return cost + price_of_length(seen, scale.lengths.trunk, angle, TrunkTuning::kTrunkSureness);
     };
     return angle_path(body.frames(), fps, price).angles;
