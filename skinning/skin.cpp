@@ -69,16 +69,6 @@ struct Bones {
     bool even = true;  // all turn normals as they turn positions
 };
 
-void place(const Affine& matrix, bool even, const Shape& shape, size_t v, PosedSurface& posed) {
-    posed.positions[v] = to_vec3(transform_direction(matrix, shape.positions[v]) + matrix.columns[3]);
-    const Affine turned = even ? matrix : normal_matrix(matrix);
-    posed.normals[v] = unit(transform_direction(turned, shape.normals[v]));
-    if (!shape.tangents.empty()) {
-        const Vec4& tangent = shape.tangents[v];
-        posed.tangents[v] = Vec4(unit(transform_direction(matrix, Vec3(tangent))), tangent.w);
-    }
-}
-
 Affine blended(std::span<const Affine> matrices, std::span<const Influence> influences) {
     Affine sum{};
     for (const Influence& influence : influences) {
@@ -93,14 +83,23 @@ PosedSurface place_all(const Surface& surface, const Shape& shape, const Bones& 
     PosedSurface posed{.positions = std::vector<Vec3>(vertices),
                        .normals = std::vector<Vec3>(vertices),
                        .tangents = std::vector<Vec4>(shape.tangents.size())};
+    const auto place = [&](size_t v, const Affine& matrix) {
+        posed.positions[v] = to_vec3(transform_direction(matrix, shape.positions[v]) + matrix.columns[3]);
+        const Affine turned = bones.even ? matrix : normal_matrix(matrix);
+        posed.normals[v] = unit(transform_direction(turned, shape.normals[v]));
+        if (!shape.tangents.empty()) {
+            const Vec4& tangent = shape.tangents[v];
+            posed.tangents[v] = Vec4(unit(transform_direction(matrix, Vec3(tangent))), tangent.w);
+        }
+    };
     for (size_t v = 0; v < vertices; ++v) {
         if (surface.skin < 0) {
-            place(bones.world_from_mesh.front(), bones.even, shape, v, posed);
+            place(v, bones.world_from_mesh.front());
             continue;
         }
         const std::uint32_t first = surface.first_influence[v];
         const std::span influences(&surface.influences[first], surface.first_influence[v + 1] - first);
-        place(blended(bones.world_from_mesh, influences), bones.even, shape, v, posed);
+        place(v, blended(bones.world_from_mesh, influences));
     }
     return posed;
 }

@@ -281,24 +281,23 @@ std::optional<SeenPicture> seen_picture(const Motion& motion, const InSpace& spa
 
 // Hands onto what the motion says that they rest on.
 void rest_hands(FitReport& report, std::vector<Posture>& postures, const Motion& motion,
-                const PostureRig& rig, const BodyShape& shape) {
+                const ShapedRig& body) {
     const auto touches = touches_of(motion);
     if (!touches) return;
-    RestoredPostures touching = restore_contacts(std::move(postures), report.fps, *touches, rig, shape);
+    RestoredPostures touching = restore_contacts(std::move(postures), report.fps, *touches, body);
     postures = std::move(touching.postures);
     report.contact_moves = touching.report;
 }
 
 // Arms out of the body.
-void move_out(FitReport& report, std::vector<Posture>& postures, const PostureRig& rig,
-              const BodyShape& shape) {
-    if (shape.capsules.empty()) {
+void move_out(FitReport& report, std::vector<Posture>& postures, const ShapedRig& body) {
+    if (body.shape.capsules.empty()) {
         throw Error(format(
             "{}: has no surface on its trunk and arms, so nothing can be kept out of it; choose another avatar, "
             "or leave --no-interpenetration out",
             report.avatar));
     }
-    ResolvedPostures apart = resolve_interpenetration(std::move(postures), report.fps, rig, shape);
+    ResolvedPostures apart = resolve_interpenetration(std::move(postures), report.fps, body);
     postures = std::move(apart.postures);
     report.interpenetration_moves = apart.report;
 }
@@ -351,9 +350,10 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     report.travel_scale = travel_scale(source.body.track, rig);
     if (!still) scale_travel(source.body.postures, report.travel_scale);
     const BodyShape shape = measure_shape(avatar, rig);
-    rest_hands(report, source.body.postures, at_rate, rig, shape);
+    rest_hands(report, source.body.postures, at_rate, {rig, shape});
     const bool has_guessed_depth = space.camera && !shape.capsules.empty();
-    if (options.no_interpenetration || has_guessed_depth) move_out(report, source.body.postures, rig, shape);
+    if (options.no_interpenetration || has_guessed_depth)
+        move_out(report, source.body.postures, {rig, shape});
     PosedClip posed = pose_on_floor(avatar, rig, source.body.postures);
 
     measure(report, source, posed.track, posed.soles);

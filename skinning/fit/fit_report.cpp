@@ -39,20 +39,6 @@ bool both_have(const BodyTrack& a, const BodyTrack& b, HumanJoint part) {
     return a.has(part) && b.has(part);
 }
 
-void add_distances(std::vector<NamedSpread>& all, const BodyTrack& source, const BodyTrack& avatar,
-                   const LimbParts& limb, double scale) {
-    if (!both_have(source, avatar, limb.upper)) return;
-    for (const HumanJoint part : {limb.lower, limb.end}) {
-        if (!both_have(source, avatar, part)) continue;
-        std::vector<double> distances;
-        for (size_t t = 0; t < avatar.places.size(); ++t) {
-            const Vec3 wanted = float(scale) * (source.at(t, part) - source.at(t, limb.upper));
-            distances.push_back(1000.0 * distance(wanted, avatar.at(t, part) - avatar.at(t, limb.upper)));
-        }
-        all.push_back({place_name(part), spread_of(std::move(distances))});
-    }
-}
-
 double ratio(double avatar, double source) {
     return source > 0 && avatar > 0 ? avatar / source : 1;
 }
@@ -117,10 +103,22 @@ Spread spread_of(std::vector<double> values) {
 
 std::vector<NamedSpread> limb_distances_mm(const BodyTrack& source, const BodyTrack& avatar) {
     std::vector<NamedSpread> all;
+    const auto add = [&](const LimbParts& limb, double scale) {
+        if (!both_have(source, avatar, limb.upper)) return;
+        for (const HumanJoint part : {limb.lower, limb.end}) {
+            if (!both_have(source, avatar, part)) continue;
+            std::vector<double> distances;
+            for (size_t t = 0; t < avatar.places.size(); ++t) {
+                const Vec3 wanted = float(scale) * (source.at(t, part) - source.at(t, limb.upper));
+                distances.push_back(1000.0 * distance(wanted, avatar.at(t, part) - avatar.at(t, limb.upper)));
+            }
+            all.push_back({place_name(part), spread_of(std::move(distances))});
+        }
+    };
     const double arms = ratio(arm_length(avatar), arm_length(source));
     const double legs = ratio(leg_length(avatar), leg_length(source));
-    for (const LimbParts& limb : kArms) add_distances(all, source, avatar, limb, arms);
-    for (const LimbParts& limb : kLegs) add_distances(all, source, avatar, limb, legs);
+    for (const LimbParts& limb : kArms) add(limb, arms);
+    for (const LimbParts& limb : kLegs) add(limb, legs);
     return all;
 }
 

@@ -150,14 +150,13 @@ class Limiter {
         return std::atan2(dot(bone, cross(hinge, direction)), dot(bone, direction));
     }
 
-    // The turn, in world axes, that brings a flexion back into its range. Past straight by more than a
-    // quarter turn means folded further than the range goes, not bent backwards.
-    static Quat back_into_range(const Quat& upper, const Vec3& hinge, float flexion, const Range& range,
-                                bool& passed) {
+    // The turn, in world axes, that brings a flexion back into its range; none if it is there. Past straight by more
+    // than a quarter turn means folded further than the range goes, not bent backwards.
+    static std::optional<Quat> back_into_range(const Quat& upper, const Vec3& hinge, float flexion,
+                                               const Range& range) {
         const float unfolded = flexion < -kPi / 2 ? flexion + 2 * kPi : flexion;
         const float held = std::clamp(unfolded, range.least, range.most);
-        if (held == unfolded) return kNoTurn;
-        passed = true;
+        if (held == unfolded) return std::nullopt;
         return glm::angleAxis(held - unfolded, normalize(upper * hinge));
     }
 
@@ -168,10 +167,9 @@ class Limiter {
         const Vec3 hinge(0, -parts.side, 0);
         const float flexion =
             flexion_of(*posture[parts.upper], *posture[parts.lower], tpose_direction(parts.lower), hinge);
-        bool passed = false;
-        const Quat back = back_into_range(*posture[parts.upper], hinge, flexion, kElbow, passed);
-        if (passed) carry_arm(arm, 2, back);
-        note(Limit::left_elbow, arm, passed);
+        const auto back = back_into_range(*posture[parts.upper], hinge, flexion, kElbow);
+        if (back) carry_arm(arm, 2, *back);
+        note(Limit::left_elbow, arm, back.has_value());
     }
 
     // The forearm's turn without the twist that pronation gives it.
@@ -233,13 +231,12 @@ class Limiter {
         note(Limit::left_hip, leg, passed);
 
         if (!posture[parts.lower]) return;
-        passed = false;
         const Vec3 hinge(1, 0, 0);
         const float flexion =
             flexion_of(*posture[parts.upper], *posture[parts.lower], tpose_direction(parts.lower), hinge);
-        const Quat back = back_into_range(*posture[parts.upper], hinge, flexion, kKnee, passed);
-        if (passed) carry_leg(leg, true, back);
-        note(Limit::left_knee, leg, passed);
+        const auto back = back_into_range(*posture[parts.upper], hinge, flexion, kKnee);
+        if (back) carry_leg(leg, true, *back);
+        note(Limit::left_knee, leg, back.has_value());
     }
 
     LimitedPosture result_;

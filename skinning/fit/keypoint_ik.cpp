@@ -306,11 +306,13 @@ class FrameSolver {
 
     const Quat& base_of(size_t limb) const { return limb < 2 ? shoulders_ : solved_.posture.hips; }
 
+    float scale_of(size_t limb) const { return limb < 2 ? body_.arm_scale : body_.leg_scale; }
+
     // Where the middle joint should bend to. A knee that noise puts behind its leg is mirrored to the front: forward
     // for a leg that hangs, and up for one that is raised forward.
-    Vec3 pole_of(size_t limb, const LimbLandmarks& points, const SwivelCircle& circle, const Vec3& root,
-                 float scale) const {
-        const Vec3 pole = root + scale * (at(points.mid) - at(points.root));
+    Vec3 pole_of(size_t limb, const SwivelCircle& circle, const Vec3& root) const {
+        const LimbLandmarks& points = points_of(limb);
+        const Vec3 pole = root + scale_of(limb) * (at(points.mid) - at(points.root));
         if (limb < 2) return pole;
         const Vec3 along = normalize(circle.tip - root);
         const Vec3 front = cross(along, solved_.posture.hips * Vec3(1, 0, 0));
@@ -333,12 +335,11 @@ class FrameSolver {
         const PostureRig& rig = body_.rig;
         const LimbParts& parts = parts_of(limb);
         const LimbLandmarks& points = points_of(limb);
-        const float scale = limb < 2 ? body_.arm_scale : body_.leg_scale;
         const Vec3 to_end = at(points.end) - at(points.root);
         const float first = rest_length(rig, parts.upper, parts.lower);
         const float second = rest_length(rig, parts.lower, parts.end);
         if (first <= 0 || second <= 0) return false;
-        const Vec3 target = root + scale * to_end;
+        const Vec3 target = root + scale_of(limb) * to_end;
         if (length(to_end) < kShortest || distance(target, root) < kLeastReach) return hold_course(limb);
         const SwivelCircle circle = swivel_circle({.root = root,
                                                    .target = target,
@@ -346,7 +347,7 @@ class FrameSolver {
                                                    .second = second,
                                                    .outward = shoulders_ * Vec3(parts.side, 0, 0)});
         float swivel = kDefaultSwivel;
-        if (has(points.mid)) swivel = swivel_towards(circle, pole_of(limb, points, circle, root, scale));
+        if (has(points.mid)) swivel = swivel_towards(circle, pole_of(limb, circle, root));
         const Vec3 mid = bend_at(circle, swivel);
         memory_.courses[limb] = {.base = base_of(limb), .upper = mid - root, .lower = circle.tip - mid};
         return circle.reached;

@@ -34,29 +34,37 @@ size_t index_of(Landmark landmark) {
     return static_cast<size_t>(landmark);
 }
 
-// The frames in which keypoint `k` was seen.
-std::vector<size_t> seen_frames(const KeypointTrack& keypoints, size_t frames, size_t k) {
-    std::vector<size_t> seen;
+// A keypoint where it was seen.
+struct SeenKeypoint {
+    std::vector<size_t> frames;
+    std::vector<Vec3> points;  // one for each of them [m]
+};
+
+SeenKeypoint where_seen(const KeypointTrack& keypoints, size_t frames, size_t k) {
+    SeenKeypoint seen;
     for (size_t t = 0; t < frames; ++t) {
-        if (keypoints.confidence[t * keypoints.names.size() + k] >= kSeen) seen.push_back(t);
+        const size_t i = t * keypoints.names.size() + k;
+        if (keypoints.confidence[i] >= kSeen) {
+            seen.frames.push_back(t);
+            seen.points.push_back(keypoints.points[i]);
+        }
     }
     return seen;
 }
 
-void fill(LandmarkTrack& track, size_t landmark, const KeypointTrack& keypoints, size_t k,
-          const std::vector<size_t>& seen) {
-    const auto point = [&](size_t i) { return keypoints.points[seen[i] * keypoints.names.size() + k]; };
+void fill(LandmarkTrack& track, size_t landmark, const SeenKeypoint& seen) {
+    const auto& [frames, points] = seen;
     size_t next = 0;
     for (size_t t = 0; t < track.points.size(); ++t) {
-        while (next < seen.size() && seen[next] < t) ++next;
+        while (next < frames.size() && frames[next] < t) ++next;
         Vec3& place = track.points[t][landmark];
-        if (next == seen.size()) {
-            place = point(next - 1);
-        } else if (seen[next] == t || next == 0) {
-            place = point(next);
+        if (next == frames.size()) {
+            place = points[next - 1];
+        } else if (frames[next] == t || next == 0) {
+            place = points[next];
         } else {
-            const float gap = float(seen[next] - seen[next - 1]);
-            place = glm::mix(point(next - 1), point(next), float(t - seen[next - 1]) / gap);
+            const float gap = float(frames[next] - frames[next - 1]);
+            place = glm::mix(points[next - 1], points[next], float(t - frames[next - 1]) / gap);
         }
     }
 }
@@ -134,11 +142,11 @@ LandmarkTrack bridge_gaps(const KeypointTrack& keypoints, size_t frames) {
     for (size_t k = 0; k < keypoints.names.size(); ++k) {
         const std::optional<Landmark> landmark = landmark_named(keypoints.names[k]);
         if (!landmark || track.has(*landmark)) continue;
-        const std::vector<size_t> seen = seen_frames(keypoints, frames, k);
-        if (seen.empty() || seen.size() * kLeastSeen < frames) continue;
+        const SeenKeypoint seen = where_seen(keypoints, frames, k);
+        if (seen.frames.empty() || seen.frames.size() * kLeastSeen < frames) continue;
         track.known.set(index_of(*landmark));
-        track.bridged[index_of(*landmark)] = frames - seen.size();
-        fill(track, index_of(*landmark), keypoints, k, seen);
+        track.bridged[index_of(*landmark)] = frames - seen.frames.size();
+        fill(track, index_of(*landmark), seen);
     }
     add_middle(track, Landmark::pelvis, Landmark::left_hip, Landmark::right_hip);
     add_middle(track, Landmark::thorax, Landmark::left_shoulder, Landmark::right_shoulder);

@@ -44,17 +44,17 @@ struct Way {
 
 class ArmMover {
   public:
-    ArmMover(const std::vector<Posture>& postures, double fps, const PostureRig& rig, const BodyShape& shape)
+    ArmMover(const std::vector<Posture>& postures, double fps, const ShapedRig& body)
         : postures_(postures),
-          rig_(rig),
-          shape_(shape),
+          rig_(body.rig),
+          shape_(body.shape),
           shifts_(postures.size()),
           weights_(gaussian(InterpenetrationTuning::kSigma * fps)),
           whole_(sums_of(weights_, postures.size())),
           unsure_(postures.size(), true) {
         for (size_t arm = 0; arm < 2; ++arm) {
             const LimbParts& parts = kArms[arm];
-            moves_[arm] = rig.parts.has(parts.end) &&
+            moves_[arm] = rig_.parts.has(parts.end) &&
                           std::all_of(postures.begin(), postures.end(),
                                       [&](const auto& p) { return p[parts.upper] && p[parts.lower]; });
         }
@@ -255,9 +255,8 @@ class ArmMover {
 
 }  // namespace
 
-ResolvedPostures resolve_interpenetration(std::vector<Posture> postures, double fps, const PostureRig& rig,
-                                          const BodyShape& shape) {
-    ArmMover mover(postures, fps, rig, shape);
+ResolvedPostures resolve_interpenetration(std::vector<Posture> postures, double fps, const ShapedRig& body) {
+    ArmMover mover(postures, fps, body);
     for (int round = 0; round < InterpenetrationTuning::kRounds; ++round)
         mover.go(round < InterpenetrationTuning::kSwivelRounds);
     ResolvedPostures result{.postures = {}, .report = mover.report()};

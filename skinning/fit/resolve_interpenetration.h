@@ -28,7 +28,6 @@ struct ResolvedPostures {
 // rounds, of which the later ones move what is left. What is stuck between parts may stay inside. Postures without
 // contact stay as they are, bit by bit.
 //   postures   (T) at `fps` > 0
-ResolvedPostures resolve_interpenetration(std::vector<Posture> postures, double fps, const PostureRig& rig,
-                                          const BodyShape& shape);
+ResolvedPostures resolve_interpenetration(std::vector<Posture> postures, double fps, const ShapedRig& body);
 
 }  // namespace chironomia

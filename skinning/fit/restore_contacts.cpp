@@ -56,12 +56,11 @@ bool is_touched(ShapePart part, Touch touch, std::size_t side) {
 
 class ContactMover {
   public:
-    ContactMover(const std::vector<Posture>& postures, const Touches& touches, const PostureRig& rig,
-                 const BodyShape& shape)
-        : postures_(postures), touches_(touches), rig_(rig), shape_(shape) {
+    ContactMover(const std::vector<Posture>& postures, const Touches& touches, const ShapedRig& body)
+        : postures_(postures), touches_(touches), rig_(body.rig), shape_(body.shape) {
         for (std::size_t side = 0; side < 2; ++side) {
             const LimbParts& arm = kArms[side];
-            moves_[side] = rig.parts.has(arm.end) &&
+            moves_[side] = rig_.parts.has(arm.end) &&
                            std::all_of(postures.begin(), postures.end(),
                                        [&](const auto& p) { return p[arm.upper] && p[arm.lower]; });
             shifts_[side].assign(postures.size(), Vec3(0));
@@ -233,8 +232,8 @@ std::optional<Touches> touches_of(const Motion& motion) {
 }
 
 RestoredPostures restore_contacts(std::vector<Posture> postures, double fps, const Touches& touches,
-                                  const PostureRig& rig, const BodyShape& shape) {
-    ContactMover mover(postures, touches, rig, shape);
+                                  const ShapedRig& body) {
+    ContactMover mover(postures, touches, body);
     mover.find_shifts();
     mover.spread(fps);
     RestoredPostures result{.postures = {}, .report = mover.report()};

@@ -40,6 +40,6 @@ struct RestoredPostures {
 //   postures   (T) at `fps` > 0
 //   touches    (T)
 RestoredPostures restore_contacts(std::vector<Posture> postures, double fps, const Touches& touches,
-                                  const PostureRig& rig, const BodyShape& shape);
+                                  const ShapedRig& body);
 
 }  // namespace chironomia

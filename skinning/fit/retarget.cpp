@@ -221,8 +221,7 @@ BodyMotion retarget(const JointTrack& track, size_t frames, const HumanoidMap& p
                   .rest = measure_rest(track.skeleton, parts, false),
                   .trunk = trunk_joints(track.skeleton, parts)};
     find_limbs(reader);
-    if (reader.rest.is_twisted)
-        reader.tpose_of_trunk = trunk_in_motion(track, frames, parts, reader.rest, reader.trunk);
+    if (reader.rest.is_twisted) reader.tpose_of_trunk = trunk_in_motion(track, frames, parts, reader.rest);
 
     BodyMotion motion;
     motion.rest_is_twisted = reader.rest.is_twisted;

@@ -72,7 +72,8 @@ PlacedJoints place_joints(const JointTrack& track, size_t t) {
 }
 
 std::vector<Quat> trunk_in_motion(const JointTrack& track, size_t frames, const HumanoidMap& parts,
-                                  const RestPose& rest, const TrunkJoints& trunk) {
+                                  const RestPose& rest) {
+    const TrunkJoints trunk = trunk_joints(track.skeleton, parts);
     std::vector<Quat> sums(track.skeleton.joints.size(), Quat(0, 0, 0, 0));
     const auto hips = parts[HumanJoint::hips];
     const int top = trunk.neck.empty() ? parts[kArms[0].upper] : trunk.neck.front();

@@ -24,8 +24,8 @@ PlacedJoints place_joints(const JointTrack& track, size_t t);
 // lie, shoulders as the arms' joints do, clavicles on the whole as the shoulders, and the spine between
 // evenly from hips to shoulders. Neck and head sit on the shoulders as they do at rest, unless they would
 // look more than 40 degrees aside on the whole: then the head is taken to look where the shoulders face, and
-// level. The skeleton must have legs.
+// level. The skeleton must have legs; `rest` is its rest pose.
 std::vector<Quat> trunk_in_motion(const JointTrack& track, size_t frames, const HumanoidMap& parts,
-                                  const RestPose& rest, const TrunkJoints& trunk);
+                                  const RestPose& rest);
 
 }  // namespace chironomia

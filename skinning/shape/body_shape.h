@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "skinning/body/posture.h"
 #include "skinning/shape/capsule.h"
 
 namespace chironomia {
@@ -36,6 +37,12 @@ struct ShapeCapsule {
 
 struct BodyShape {
     std::vector<ShapeCapsule> capsules{};
+};
+
+// A rig and the shape that moves with it.
+struct ShapedRig {
+    const PostureRig& rig;
+    const BodyShape& shape;
 };
 
 // The trunk of an adult where no avatar is at hand: an elliptic cylinder before the middle of the shoulder joints.

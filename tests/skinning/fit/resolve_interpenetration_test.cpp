@@ -78,7 +78,7 @@ TEST(ResolveInterpenetration, LeavesArmsThatTouchNothing) {
     const ApartPerson person;
     const std::vector<Posture> postures(10, with_forearms(0, 0));
     ASSERT_EQ(person.deepest(postures.front()), 0);
-    const ResolvedPostures apart = resolve_interpenetration(postures, kFps, person.rig, person.shape);
+    const ResolvedPostures apart = resolve_interpenetration(postures, kFps, {person.rig, person.shape});
     EXPECT_EQ(apart.report.frames, 0u);
     for (const Posture& posture : apart.postures)
         for (const LimbParts& arm : kArms) EXPECT_EQ(*posture[arm.lower], *postures.front()[arm.lower]);
@@ -88,7 +88,7 @@ TEST(ResolveInterpenetration, TakesAForearmOutOfTheTrunkWithoutAPop) {
     const ApartPerson person;
     const std::vector<Posture> postures = swing_into_the_trunk();
     ASSERT_GT(person.deepest(postures[45]), 0.06f);
-    const ResolvedPostures apart = resolve_interpenetration(postures, kFps, person.rig, person.shape);
+    const ResolvedPostures apart = resolve_interpenetration(postures, kFps, {person.rig, person.shape});
     for (const Posture& posture : apart.postures) EXPECT_LT(person.deepest(posture), 0.02f);
     EXPECT_GT(apart.report.frames, 20u);
     EXPECT_LT(apart.report.most_wrist, 0.25);
@@ -101,7 +101,7 @@ TEST(ResolveInterpenetration, TakesAForearmOutOfTheTrunkWithoutAPop) {
 TEST(ResolveInterpenetration, KeepsBoneLengthsAndTheTurnOfTheHand) {
     const ApartPerson person;
     const std::vector<Posture> postures = swing_into_the_trunk();
-    const ResolvedPostures apart = resolve_interpenetration(postures, kFps, person.rig, person.shape);
+    const ResolvedPostures apart = resolve_interpenetration(postures, kFps, {person.rig, person.shape});
     const auto forearm = [&](const Posture& posture) {
         return distance(person.at(posture, HumanJoint::left_lower_arm),
                         person.at(posture, HumanJoint::left_hand));
@@ -114,7 +114,7 @@ TEST(ResolveInterpenetration, LetsBothArmsMakeWayForEachOther) {
     const ApartPerson person;
     const std::vector<Posture> postures(30, with_forearms(0.8f, 0.8f));
     ASSERT_GT(person.deepest(postures[15]), 0.03f);
-    const ResolvedPostures apart = resolve_interpenetration(postures, kFps, person.rig, person.shape);
+    const ResolvedPostures apart = resolve_interpenetration(postures, kFps, {person.rig, person.shape});
     EXPECT_LT(person.deepest(apart.postures[15]), 0.02f);
     for (const HumanJoint wrist : {HumanJoint::left_hand, HumanJoint::right_hand})
         EXPECT_GT(distance(person.at(apart.postures[15], wrist), person.at(postures[15], wrist)), 0.003f);

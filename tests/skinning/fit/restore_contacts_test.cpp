@@ -67,7 +67,7 @@ TEST(RestoreContacts, LeavesPosturesWithoutATouchAsTheyAre) {
     const std::vector<Posture> postures(100, before_the_belly(0.7f));
     Touches touches = touches_trunk();
     touches[0].assign(100, Touch::nothing);
-    const RestoredPostures kept = restore_contacts(postures, kTouchFps, touches, person.rig, person.shape);
+    const RestoredPostures kept = restore_contacts(postures, kTouchFps, touches, {person.rig, person.shape});
     EXPECT_EQ(kept.report.frames, 0u);
     for (size_t t = 0; t < 100; ++t) EXPECT_EQ(kept.postures[t].parts, postures[t].parts);
 }
@@ -80,7 +80,7 @@ TEST(RestoreContacts, BringsAHandThatIsBeforeTheTrunkOntoItAndBackSmoothly) {
         ASSERT_GT(before, 0.02f) << name;
         ASSERT_LT(before, 0.09f) << name;
         const RestoredPostures kept =
-            restore_contacts(postures, kTouchFps, touches_trunk(), person.rig, person.shape);
+            restore_contacts(postures, kTouchFps, touches_trunk(), {person.rig, person.shape});
         for (size_t t = 43; t < 57; ++t)
             EXPECT_NEAR(person.gap(kept.postures[t]), -0.004f, 0.003f) << name << t;
         EXPECT_NEAR(kept.report.most_wrist, before, 0.02) << name;
@@ -101,7 +101,7 @@ TEST(RestoreContacts, BringsAHandThatIsInTheTrunkOutOfIt) {
     const std::vector<Posture> postures(100, before_the_belly(1.15f));
     ASSERT_LT(person.gap(postures[0]), -0.01f);
     const RestoredPostures kept =
-        restore_contacts(postures, kTouchFps, touches_trunk(), person.rig, person.shape);
+        restore_contacts(postures, kTouchFps, touches_trunk(), {person.rig, person.shape});
     EXPECT_NEAR(person.gap(kept.postures[50]), -0.004f, 0.003f);
 }
 
@@ -109,7 +109,7 @@ TEST(RestoreContacts, LeavesAHandThatIsFarFromWhatItShouldRestOn) {
     const TouchPerson person("neutral");
     const std::vector<Posture> postures(100, before_the_belly(0));
     const RestoredPostures kept =
-        restore_contacts(postures, kTouchFps, touches_trunk(), person.rig, person.shape);
+        restore_contacts(postures, kTouchFps, touches_trunk(), {person.rig, person.shape});
     EXPECT_EQ(kept.report.too_far, 20u);
     EXPECT_EQ(kept.report.frames, 0u);
     EXPECT_EQ(kept.postures[50].parts, postures[50].parts);
