@@ -35,16 +35,16 @@ bool moves_body(const Motion& motion) {
     return !motion.face || motion.joints || motion.keypoints || motion.picture;
 }
 
-FaceFit fit_motion_and_face(const std::optional<Motion>& motion, const std::optional<Motion>& face,
-                            const Avatar& avatar, const FitOptions& options,
+FaceFit fit_motion_and_face(const BodyAndFace& motions, const Avatar& avatar, const FitOptions& options,
                             const FaceOptions& face_options) {
-    assert(motion || face);
+    const auto& [body, face] = motions;
+    assert(body || face);
     assert(!face || face->face);
-    const Motion* with_face = face ? &*face : motion->face ? &*motion : nullptr;
+    const Motion* with_face = face ? &*face : body->face ? &*body : nullptr;
     FaceFit result;
     if (with_face != nullptr) result.face_frames = frames_at(*with_face, options.fps);
-    if (motion && moves_body(*motion)) {
-        result.fit = fit_motion(*motion, avatar, options);
+    if (body && moves_body(*body)) {
+        result.fit = fit_motion(*body, avatar, options);
         result.body_frames = result.fit.poses.size();
     } else {
         result.fit = stand_relaxed(avatar, {.fps = options.fps, .frames = result.face_frames});

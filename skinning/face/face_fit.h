@@ -20,10 +20,15 @@ struct FaceFit {
     std::size_t face_frames = 0;
 };
 
-// Fits the body of `motion` and the face of `face`, or of `motion` if `face` is not given. The face is resampled to the
-// rate of the result. The shorter of both is held at its last values. Without a motion of the body it stands relaxed.
-// At least one of the two must be there; `face` must have a face. Throws Error as fit_motion.
-FaceFit fit_motion_and_face(const std::optional<Motion>& motion, const std::optional<Motion>& face,
-                            const Avatar& avatar, const FitOptions& options, const FaceOptions& face_options);
+// A motion of a body and one of a face, each of its own rate and length; at least one is there.
+struct BodyAndFace {
+    const std::optional<Motion>& body;  // its face is taken if `face` is not there
+    const std::optional<Motion>& face;  // has a face
+};
+
+// The face is resampled to the rate of the result. The shorter of both is held at its last values. Without a motion of
+// the body it stands relaxed. Throws Error as fit_motion.
+FaceFit fit_motion_and_face(const BodyAndFace& motions, const Avatar& avatar, const FitOptions& options,
+                            const FaceOptions& face_options);
 
 }  // namespace chironomia

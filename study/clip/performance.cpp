@@ -122,7 +122,7 @@ Performance perform(const Performer& performer, const ClipJob& job) {
     if (performer.modes.face_mode == FaceMode::neutral) forget_faces(motions);
     Performance performance;
     performance.avatar = read_avatar(find_avatar(performer.avatar));
-    FaceFit fit = fit_motion_and_face(motions.body, motions.face, performance.avatar,
+    FaceFit fit = fit_motion_and_face({.body = motions.body, .face = motions.face}, performance.avatar,
                                       {.fps = job.fps.per_second(),
                                        .upper_body = job.upper_body,
                                        .relaxed_hands = performer.modes.hands == HandsMode::relaxed,

@@ -85,7 +85,7 @@ double fps_of(const PerformerMotions& motions, const ConvertCommand& command) {
 Performance perform(const PerformerMotions& motions, const ConvertCommand& command) {
     const fs::path file = find_avatar(command.avatar.value_or(kDefaultAvatar));
     Avatar avatar = read_avatar(file);
-    FaceFit fit = fit_motion_and_face(motions.body, motions.face, avatar,
+    FaceFit fit = fit_motion_and_face({.body = motions.body, .face = motions.face}, avatar,
                                       {.fps = fps_of(motions, command),
                                        .no_interpenetration = command.no_interpenetration,
                                        .lift_cutoff = command.hints.lift_cutoff},

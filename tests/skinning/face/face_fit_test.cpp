@@ -44,7 +44,7 @@ std::vector<float> smile_of(const FaceFit& fit) {
 TEST(FitMotionAndFace, BringsBothToTheRateOfTheClip) {
     const Avatar avatar = faced_avatar({"AU12"});
     const FaceFit fit =
-        fit_motion_and_face(still_body(avatar, 10, 4), growing_smile(5, 2), avatar, {.fps = 10}, {});
+        fit_motion_and_face({still_body(avatar, 10, 4), growing_smile(5, 2)}, avatar, {.fps = 10}, {});
     EXPECT_EQ(fit.body_frames, 4u);
     EXPECT_EQ(fit.face_frames, 4u);
     const std::vector<float> smile = smile_of(fit);
@@ -58,7 +58,7 @@ TEST(FitMotionAndFace, BringsBothToTheRateOfTheClip) {
 TEST(FitMotionAndFace, HoldsTheLastPoseOfAShorterBody) {
     const Avatar avatar = faced_avatar({"AU12"});
     const FaceFit fit =
-        fit_motion_and_face(still_body(avatar, 10, 2), growing_smile(10, 5), avatar, {.fps = 10}, {});
+        fit_motion_and_face({still_body(avatar, 10, 2), growing_smile(10, 5)}, avatar, {.fps = 10}, {});
     EXPECT_EQ(fit.body_frames, 2u);
     EXPECT_EQ(fit.face_frames, 5u);
     EXPECT_EQ(fit.fit.poses[4].joints, fit.fit.poses[1].joints);
@@ -68,7 +68,7 @@ TEST(FitMotionAndFace, HoldsTheLastPoseOfAShorterBody) {
 TEST(FitMotionAndFace, HoldsTheLastValuesOfAShorterFace) {
     const Avatar avatar = faced_avatar({"AU12"});
     const FaceFit fit =
-        fit_motion_and_face(still_body(avatar, 10, 5), growing_smile(10, 3), avatar, {.fps = 10}, {});
+        fit_motion_and_face({still_body(avatar, 10, 5), growing_smile(10, 3)}, avatar, {.fps = 10}, {});
     EXPECT_EQ(fit.face_frames, 3u);
     EXPECT_FLOAT_EQ(smile_of(fit)[4], .4f);
 }
@@ -77,12 +77,12 @@ TEST(FitMotionAndFace, TakesTheMotionsOwnFaceUnlessAnotherIsGiven) {
     const Avatar avatar = faced_avatar({"AU12"});
     Motion both = still_body(avatar, 10, 3);
     both.face = growing_smile(10, 3).face;
-    EXPECT_FLOAT_EQ(smile_of(fit_motion_and_face(both, {}, avatar, {.fps = 10}, {}))[2], .4f);
+    EXPECT_FLOAT_EQ(smile_of(fit_motion_and_face({both, {}}, avatar, {.fps = 10}, {}))[2], .4f);
     Motion other = growing_smile(10, 3);
     other.face->intensities = {5, 5, 5};
-    EXPECT_FLOAT_EQ(smile_of(fit_motion_and_face(both, other, avatar, {.fps = 10}, {}))[2], 1);
+    EXPECT_FLOAT_EQ(smile_of(fit_motion_and_face({both, other}, avatar, {.fps = 10}, {}))[2], 1);
     both.face.reset();
-    const FaceFit none = fit_motion_and_face(both, {}, avatar, {.fps = 10}, {});
+    const FaceFit none = fit_motion_and_face({both, {}}, avatar, {.fps = 10}, {});
     EXPECT_FALSE(none.face);
     EXPECT_EQ(none.fit.poses.size(), 3u);
 }
@@ -98,7 +98,7 @@ TEST(FitMotionAndFace, TurnsTheHeadOfItsOwnFaceWithTheBody) {
         for (const double turn : {0.0, 60.0, 180.0}) {
             const Motion turned = stand_upright(both, {.up = UpAxis::y, .unit = 1, .turn_deg = turn});
             const FaceFit fit =
-                fit_motion_and_face(turned, {}, avatar, {.fps = 10, .upper_body = upper_body}, {});
+                fit_motion_and_face({turned, {}}, avatar, {.fps = 10, .upper_body = upper_body}, {});
             const auto world = world_from_joints(avatar.skeleton, fit.fit.poses[1].joints);
             const auto turn_of = [&](HumanJoint part) {
                 return rotation_of(world[static_cast<std::size_t>(avatar.humanoid[part])]);
@@ -112,8 +112,8 @@ TEST(FitMotionAndFace, TurnsTheHeadOfItsOwnFaceWithTheBody) {
 // Hands below the hips and apart from the body, soles on the floor.
 TEST(FitMotionAndFace, StandsRelaxedWithoutABody) {
     const Avatar avatar = faced_avatar({"AU12"});
-    for (const FaceFit& fit : {fit_motion_and_face({}, growing_smile(10, 3), avatar, {.fps = 10}, {}),
-                               fit_motion_and_face(growing_smile(10, 3), {}, avatar, {.fps = 10}, {})}) {
+    for (const FaceFit& fit : {fit_motion_and_face({{}, growing_smile(10, 3)}, avatar, {.fps = 10}, {}),
+                               fit_motion_and_face({growing_smile(10, 3), {}}, avatar, {.fps = 10}, {})}) {
         EXPECT_EQ(fit.body_frames, 0u);
         ASSERT_EQ(fit.fit.poses.size(), 3u);
         EXPECT_FLOAT_EQ(smile_of(fit)[2], .4f);
