@@ -310,7 +310,8 @@ GltfFile file_of(const Skeleton& skeleton) {
 }  // namespace
 
 void write_animated_glb(const std::filesystem::path& out, const std::filesystem::path& avatar_file,
-                        const Avatar& avatar, std::span<const Pose> poses, double fps) {
+                        const AnimatedAvatar& animated) {
+    const auto& [avatar, poses, fps] = animated;
     assert(!poses.empty() && fps > 0);
     GltfFile file = with_feet_on_legs(open_gltf(avatar_file)).file;
     const std::vector<Pose> all = poses_of_all_armatures(avatar, poses);

@@ -207,7 +207,8 @@ void write_performance(const Performance& performed, const ConvertCommand& comma
     const Fit& fit = performed.fit.fit;
     const std::vector<Pose> poses(fit.poses.begin(), fit.poses.end());
     if (form == Form::glb)
-        write_animated_glb(command.out, performed.avatar_file, performed.avatar, poses, fit.fps);
+        write_animated_glb(command.out, performed.avatar_file,
+                           {.avatar = performed.avatar, .poses = poses, .fps = fit.fps});
     else
         write_motion(motion_of_avatar(performed.avatar, poses, fit.fps), command, form);
     std::vector<std::string> warnings = performed.avatar.warnings;

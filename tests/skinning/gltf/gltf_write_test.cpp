@@ -93,7 +93,7 @@ TEST(WriteAnimatedGlb, KeepsThePosesAndTheAvatar) {
     const auto source = find_asset("assets/avatars/mannequin.glb");
     const Avatar avatar = read_avatar(source);
     const std::vector<Pose> poses = some_motion(avatar);
-    write_animated_glb(folder / "moving.glb", source, avatar, poses, 25);
+    write_animated_glb(folder / "moving.glb", source, {avatar, poses, 25});
 
     expect_same_poses(poses, poses_in(folder / "moving.glb", avatar, poses.size()));
     const Avatar again = read_avatar(folder / "moving.glb");
@@ -110,8 +110,8 @@ TEST(WriteAnimatedGlb, WritesTheSameBytesEachTime) {
     const auto source = find_asset("assets/avatars/mannequin.glb");
     const Avatar avatar = read_avatar(source);
     const std::vector<Pose> poses = some_motion(avatar);
-    write_animated_glb(folder / "one.glb", source, avatar, poses, 30);
-    write_animated_glb(folder / "two.glb", source, avatar, poses, 30);
+    write_animated_glb(folder / "one.glb", source, {avatar, poses, 30});
+    write_animated_glb(folder / "two.glb", source, {avatar, poses, 30});
     EXPECT_EQ(read_bytes(folder / "one.glb"), read_bytes(folder / "two.glb"));
 }
 
@@ -121,7 +121,7 @@ TEST(WriteAnimatedGlb, WritesMorphWeightsThatVary) {
     const Avatar scene = read_animated_scene(source).scene;
     std::vector<Pose> poses(3, rest_pose(scene));
     poses[1].morph_weights = {0.5f, 0.25f};
-    write_animated_glb(folder / "morph.glb", source, scene, poses, 10);
+    write_animated_glb(folder / "morph.glb", source, {scene, poses, 10});
     const GltfFile file = open_gltf(folder / "morph.glb");
     EXPECT_EQ(file.json["animations"][0]["channels"][0]["target"]["path"], "weights");
     const std::vector<float> written =
@@ -143,7 +143,7 @@ TEST(WriteAnimatedGlb, EmbedsImagesAndBuffersFromOtherFiles) {
     const Avatar avatar = read_avatar(folder / "avatar.gltf");
     const std::vector<Pose> poses = some_motion(avatar);
     const TemporaryFolder elsewhere;
-    write_animated_glb(elsewhere / "moving.glb", folder / "avatar.gltf", avatar, poses, 30);
+    write_animated_glb(elsewhere / "moving.glb", folder / "avatar.gltf", {avatar, poses, 30});
 
     const Avatar again = read_avatar(elsewhere / "moving.glb");
     EXPECT_THAT(again.images.at(0).rgba, ::testing::ElementsAre(10, 20, 30, 255));
@@ -158,8 +158,9 @@ TEST(WriteAnimatedGlb, RefusesAFileThatBrokeMeanwhile) {
     const std::vector<Pose> poses = {rest_pose(avatar)};
     const auto refusal = [&] {
         file.write_glb(folder / "avatar.glb");
-        return refusal_of(
-            [&] { write_animated_glb(folder / "out.glb", folder / "avatar.glb", avatar, poses, 30); });
+        return refusal_of([&] {
+            write_animated_glb(folder / "out.glb", folder / "avatar.glb", {avatar, poses, 30});
+        });
     };
     file.json["bufferViews"][0]["buffer"] = 3;
     EXPECT_THAT(refusal(), HasSubstr("avatar.glb: a buffer view is in buffer 3, there are 1"));
@@ -179,8 +180,9 @@ TEST(WriteAnimatedGlb, RefusesAnotherAvatarsFile) {
     const Avatar avatar = read_avatar(find_asset("assets/avatars/mannequin.glb"));
     const TemporaryFolder folder;
     const std::vector<Pose> poses = {rest_pose(avatar)};
-    const std::string refusal = refusal_of(
-        [&] { write_animated_glb(folder / "x.glb", test_file("made/numbered.glb"), avatar, poses, 30); });
+    const std::string refusal = refusal_of([&] {
+        write_animated_glb(folder / "x.glb", test_file("made/numbered.glb"), {avatar, poses, 30});
+    });
     EXPECT_THAT(refusal, HasSubstr("numbered.glb: has 21 nodes and the avatar"));
     EXPECT_THAT(refusal, HasSubstr("give the file that the avatar was read from"));
     EXPECT_FALSE(std::filesystem::exists(folder / "x.glb"));

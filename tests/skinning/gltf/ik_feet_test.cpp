@@ -105,7 +105,7 @@ TEST(IkFeet, HangFromTheLegsInWhatIsWritten) {
     const TemporaryFolder folder;
     write_ik_feet(folder / "ik_feet.glb");
     const Avatar avatar = read_avatar(folder / "ik_feet.glb");
-    write_animated_glb(folder / "out.glb", folder / "ik_feet.glb", avatar, {{rest_pose(avatar)}}, 30);
+    write_animated_glb(folder / "out.glb", folder / "ik_feet.glb", {avatar, {{rest_pose(avatar)}}, 30});
     EXPECT_FALSE(with_feet_on_legs(open_gltf(folder / "out.glb")).moved);
 }
 

@@ -134,7 +134,7 @@ TEST(StandUpright, IsKeptInAnAnimatedFile) {
     const Avatar avatar = read_avatar(folder / "x.glb");
     std::vector<Pose> poses(2, rest_pose(avatar));
     poses[1].joints[0].translation.x = 1;
-    write_animated_glb(folder / "moving.glb", folder / "x.glb", avatar, poses, 30);
+    write_animated_glb(folder / "moving.glb", folder / "x.glb", {avatar, poses, 30});
     const Avatar again = read_avatar(folder / "moving.glb");
     EXPECT_EQ(again.skeleton.joints.size(), avatar.skeleton.joints.size());
     expect_stands_as_usual(again);
