@@ -19,19 +19,6 @@ namespace {
 
 constexpr float kUnitError = 0.05f;  // of a rotation, which may be stored in bytes
 
-// The whole number behind a key; `otherwise` if it is missing.
-long long integer_of(const GltfFile& file, const Json& object, const std::string& key, long long otherwise,
-                     const std::string& what) {
-    if (!object.is_object()) refuse(file, format("{} is no object; the file is broken, get it again", what));
-    if (!object.contains(key)) return otherwise;
-    const Json& value = object.at(key);
-    if (!value.is_number_integer()) {
-        refuse(file, format("{}: its {} is {}, a whole number is needed; the file is broken, get it again",
-                            what, key, value.dump(-1, ' ', false, Json::error_handler_t::replace)));
-    }
-    return value.get<long long>();
-}
-
 const Json& list_of(const GltfFile& file, const Json& object, const std::string& key,
                     const std::string& what) {
     if (!object.is_object() || !object.contains(key) || !object.at(key).is_array())
@@ -68,12 +55,25 @@ class AnimationReader {
         refuse(scene_.file, format("{} {}", what_, problem));
     }
 
+    // The whole number behind a key; -1 if it is missing.
+    long long integer_of(const Json& object, const std::string& key) const {
+        if (!object.is_object()) refuse_here("is no object; the file is broken, get it again");
+        if (!object.contains(key)) return -1;
+        const Json& value = object.at(key);
+        if (!value.is_number_integer()) {
+            refuse(scene_.file,
+                   format("{}: its {} is {}, a whole number is needed; the file is broken, get it again",
+                          what_, key, value.dump(-1, ' ', false, Json::error_handler_t::replace)));
+        }
+        return value.get<long long>();
+    }
+
     void add_track(const Json& channel, std::vector<AnimationTrack>& tracks) {
         if (!channel.is_object() || !channel.contains("target") || !channel.at("target").is_object())
             refuse_here("has no target; the file is broken, get it again");
         const Json& target = channel.at("target");
         const std::string path = word_of(target, "path", "");
-        const long long node = integer_of(scene_.file, target, "node", -1, what_);
+        const long long node = integer_of(target, "node");
         if (!target.contains("node") || path == "pointer") return;  // an extension knows what it moves
         const auto nodes = static_cast<long long>(scene_.nodes.joint_of_node.size());
         if (node < 0 || node >= nodes)
@@ -85,7 +85,7 @@ class AnimationReader {
         if (!targets_.insert({track.joint, track.path}).second)
             refuse_here(
                 format("moves the {} of node {} a second time; keep one channel of both", path, node));
-        read_keys(integer_of(scene_.file, channel, "sampler", -1, what_), track);
+        read_keys(integer_of(channel, "sampler"), track);
         tracks.push_back(std::move(track));
     }
 
@@ -134,7 +134,7 @@ class AnimationReader {
     }
 
     int accessor_of(const Json& sampler, const std::string& key) const {
-        const long long index = integer_of(scene_.file, sampler, key, -1, what_);
+        const long long index = integer_of(sampler, key);
         const auto most = static_cast<long long>(scene_.model->accessors.size());
         if (index < 0 || index >= most) {
             refuse_here(format("has {} {}, there are {} accessors; the file is broken, get it again", key,

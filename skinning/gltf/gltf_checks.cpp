@@ -16,13 +16,24 @@ constexpr float kBoundsTolerance = 0.05f;  // of the longest side
 constexpr float kWeightTolerance = 0.02f;  // of one weight beyond [0, 1]
 constexpr float kFlat = 1e-6f;             // volume of a matrix's axes, of the box of their lengths
 
-// What stands in a list of the JSON, with its name for messages: material "Skin", node 4.
+// An object of the JSON, with its name for messages: material "Skin", node 4.
+struct GltfObject {
+    const GltfFile& file;
+    const Json& json;
+    std::string label;
+
+    // What is found in it goes by the same name.
+    GltfObject with(const Json& inner) const { return {file, inner, label}; }
+};
+
+// Visits what stands in a list of the JSON.
 template <typename Visit>
 void for_each_in(const GltfFile& file, const char* list, std::string_view noun, Visit visit) {
     size_t number = 0;
     for (const Json& item : file.json.value(list, Json::array())) {
         const std::string name = item.is_object() ? item.value("name", std::string()) : "";
-        visit(item, name.empty() ? format("{} {}", noun, number) : format("{} \"{}\"", noun, name));
+        visit(GltfObject{file, item,
+                         name.empty() ? format("{} {}", noun, number) : format("{} \"{}\"", noun, name)});
         ++number;
     }
 }
@@ -38,26 +49,25 @@ void check_whole(const GltfFile& file, const Json& value, const std::string& wha
     }
 }
 
-void check_wholes(const GltfFile& file, const Json& object, const std::string& label,
-                  std::initializer_list<const char*> keys) {
+void check_wholes(const GltfObject& object, std::initializer_list<const char*> keys) {
+    const auto& [file, json, label] = object;
     for (const char* key : keys) {
-        if (object.contains(key)) check_whole(file, object[key], format("{}: its {}", label, key));
+        if (json.contains(key)) check_whole(file, json[key], format("{}: its {}", label, key));
     }
 }
 
-void check_wholes_in(const GltfFile& file, const Json& object, const std::string& label, const char* key) {
-    for (const Json& value : object.value(key, Json::array()))
-        check_whole(file, value, format("{}: an entry of its {}", label, key));
+void check_wholes_in(const GltfObject& object, const char* key) {
+    for (const Json& value : object.json.value(key, Json::array()))
+        check_whole(object.file, value, format("{}: an entry of its {}", object.label, key));
 }
 
-void check_one_of(const GltfFile& file, const Json& object, const std::string& label, const char* key,
-                  const std::vector<Json>& allowed) {
-    if (!object.contains(key) || std::find(allowed.begin(), allowed.end(), object[key]) != allowed.end())
-        return;
+void check_one_of(const GltfObject& object, const char* key, const std::vector<Json>& allowed) {
+    const auto& [file, json, label] = object;
+    if (!json.contains(key) || std::find(allowed.begin(), allowed.end(), json[key]) != allowed.end()) return;
     std::vector<std::string> texts;
     for (const Json& value : allowed) texts.push_back(value.dump());
     refuse(file, format("{}: its {} is {}, one of {} is needed; write the file again", label, key,
-                        object[key].dump(), join(texts, ", ")));
+                        json[key].dump(), join(texts, ", ")));
 }
 
 struct NumberRange {
@@ -75,15 +85,15 @@ void check_number(const GltfFile& file, const Json& value, const NumberRange& ra
     }
 }
 
-void check_factor(const GltfFile& file, const Json& object, const std::string& label, const char* key,
-                  const NumberRange& range) {
-    if (object.contains(key)) check_number(file, object[key], range, format("{}: its {}", label, key));
+void check_factor(const GltfObject& object, const char* key, const NumberRange& range) {
+    const auto& [file, json, label] = object;
+    if (json.contains(key)) check_number(file, json[key], range, format("{}: its {}", label, key));
 }
 
-void check_list(const GltfFile& file, const Json& object, const std::string& label, const char* key,
-                size_t count, const NumberRange& range = {}) {
-    if (!object.contains(key)) return;
-    const Json& list = object[key];
+void check_list(const GltfObject& object, const char* key, size_t count, const NumberRange& range = {}) {
+    const auto& [file, json, label] = object;
+    if (!json.contains(key)) return;
+    const Json& list = json[key];
     if (!list.is_array() || list.size() != count) {
         refuse(file, format("{}: its {} has {} numbers, {} are needed; the file is broken, get it again",
                             label, key, list.is_array() ? list.size() : 0, count));
@@ -93,70 +103,70 @@ void check_list(const GltfFile& file, const Json& object, const std::string& lab
 }
 
 // In a material and its extensions: which texture is read, where, and how it lies.
-void check_textures(const GltfFile& file, const Json& value, const std::string& label) {
-    if (!value.is_structured()) return;
-    if (value.is_object() && value.contains("index")) {
-        check_wholes(file, value, label + ": a texture", {"index", "texCoord"});
-        const Json extensions = value.value("extensions", Json::object());
+void check_textures(const GltfObject& object) {
+    const auto& [file, json, label] = object;
+    if (!json.is_structured()) return;
+    if (json.is_object() && json.contains("index")) {
+        check_wholes({file, json, label + ": a texture"}, {"index", "texCoord"});
+        const Json extensions = json.value("extensions", Json::object());
         if (extensions.contains("KHR_texture_transform")) {
-            const Json& transform = extensions["KHR_texture_transform"];
-            const std::string what = label + ": a KHR_texture_transform";
-            check_wholes(file, transform, what, {"texCoord"});
-            check_list(file, transform, what, "offset", 2);
-            check_list(file, transform, what, "scale", 2);
-            check_factor(file, transform, what, "rotation", {});
+            const GltfObject transform{file, extensions["KHR_texture_transform"],
+                                       label + ": a KHR_texture_transform"};
+            check_wholes(transform, {"texCoord"});
+            check_list(transform, "offset", 2);
+            check_list(transform, "scale", 2);
+            check_factor(transform, "rotation", {});
         }
     }
-    for (const Json& inner : value) check_textures(file, inner, label);
+    for (const Json& inner : json) check_textures(object.with(inner));
 }
 
 void check_materials(const GltfFile& file) {
     constexpr NumberRange kShare{0, 1};
-    for_each_in(file, "materials", "material", [&](const Json& material, const std::string& label) {
-        const Json pbr = material.value("pbrMetallicRoughness", Json::object());
-        check_list(file, pbr, label, "baseColorFactor", 4, kShare);
-        check_factor(file, pbr, label, "metallicFactor", kShare);
-        check_factor(file, pbr, label, "roughnessFactor", kShare);
-        check_list(file, material, label, "emissiveFactor", 3, kShare);
-        check_factor(file, material, label, "alphaCutoff", {.least = 0});
-        const Json extensions = material.value("extensions", Json::object());
-        const auto extension = [&](const char* name) {
-            return extensions.contains(name) ? extensions[name] : Json::object();
+    for_each_in(file, "materials", "material", [&](const GltfObject& material) {
+        const Json none = Json::object(), extensions = material.json.value("extensions", none);
+        const auto part = [&](const Json& json, const char* name) {
+            return material.with(json.contains(name) ? json[name] : none);
         };
-        const Json anisotropy = extension("KHR_materials_anisotropy");
-        check_factor(file, anisotropy, label, "anisotropyStrength", kShare);
-        check_factor(file, anisotropy, label, "anisotropyRotation", {});
-        const Json specular = extension("KHR_materials_specular");
-        check_factor(file, specular, label, "specularFactor", kShare);
-        check_list(file, specular, label, "specularColorFactor", 3, {.least = 0});
-        check_factor(file, extension("KHR_materials_ior"), label, "ior", {.least = 0});
-        check_one_of(file, material, label, "alphaMode", {"OPAQUE", "MASK", "BLEND"});
-        check_textures(file, material, label);
+        const GltfObject pbr = part(material.json, "pbrMetallicRoughness");
+        check_list(pbr, "baseColorFactor", 4, kShare);
+        check_factor(pbr, "metallicFactor", kShare);
+        check_factor(pbr, "roughnessFactor", kShare);
+        check_list(material, "emissiveFactor", 3, kShare);
+        check_factor(material, "alphaCutoff", {.least = 0});
+        const GltfObject anisotropy = part(extensions, "KHR_materials_anisotropy");
+        check_factor(anisotropy, "anisotropyStrength", kShare);
+        check_factor(anisotropy, "anisotropyRotation", {});
+        const GltfObject specular = part(extensions, "KHR_materials_specular");
+        check_factor(specular, "specularFactor", kShare);
+        check_list(specular, "specularColorFactor", 3, {.least = 0});
+        check_factor(part(extensions, "KHR_materials_ior"), "ior", {.least = 0});
+        check_one_of(material, "alphaMode", {"OPAQUE", "MASK", "BLEND"});
+        check_textures(material);
     });
     const size_t samplers = file.json.value("samplers", Json::array()).size();
-    for_each_in(file, "textures", "texture", [&](const Json& texture, const std::string& label) {
-        check_wholes(file, texture, label, {"source", "sampler"});
-        if (texture.contains("sampler") && texture["sampler"].get<size_t>() >= samplers) {
-            refuse(file, format("{} has sampler {}, there are {}; the file is broken, get it again", label,
-                                texture["sampler"].dump(), samplers));
+    for_each_in(file, "textures", "texture", [&](const GltfObject& texture) {
+        check_wholes(texture, {"source", "sampler"});
+        if (texture.json.contains("sampler") && texture.json["sampler"].get<size_t>() >= samplers) {
+            refuse(file, format("{} has sampler {}, there are {}; the file is broken, get it again",
+                                texture.label, texture.json["sampler"].dump(), samplers));
         }
     });
-    for_each_in(file, "samplers", "sampler", [&](const Json& sampler, const std::string& label) {
-        for (const char* wrap : {"wrapS", "wrapT"})
-            check_one_of(file, sampler, label, wrap, {33071, 33648, 10497});
-        check_one_of(file, sampler, label, "magFilter", {9728, 9729});
-        check_one_of(file, sampler, label, "minFilter", {9728, 9729, 9984, 9985, 9986, 9987});
+    for_each_in(file, "samplers", "sampler", [&](const GltfObject& sampler) {
+        for (const char* wrap : {"wrapS", "wrapT"}) check_one_of(sampler, wrap, {33071, 33648, 10497});
+        check_one_of(sampler, "magFilter", {9728, 9729});
+        check_one_of(sampler, "minFilter", {9728, 9729, 9984, 9985, 9986, 9987});
     });
 }
 
 void check_meshes(const GltfFile& file) {
-    for_each_in(file, "meshes", "mesh", [&](const Json& mesh, const std::string& label) {
-        for (const Json& primitive : mesh.value("primitives", Json::array())) {
-            check_wholes(file, primitive, label, {"indices", "material"});
-            check_one_of(file, primitive, label, "mode", {0, 1, 2, 3, 4, 5, 6});
+    for_each_in(file, "meshes", "mesh", [&](const GltfObject& mesh) {
+        for (const Json& primitive : mesh.json.value("primitives", Json::array())) {
+            check_wholes(mesh.with(primitive), {"indices", "material"});
+            check_one_of(mesh.with(primitive), "mode", {0, 1, 2, 3, 4, 5, 6});
             const auto check_attributes = [&](const Json& attributes) {
                 for (const auto& [name, accessor] : attributes.items())
-                    check_whole(file, accessor, format("{}: the accessor of {}", label, name));
+                    check_whole(file, accessor, format("{}: the accessor of {}", mesh.label, name));
             };
             check_attributes(primitive.value("attributes", Json::object()));
             for (const Json& target : primitive.value("targets", Json::array())) check_attributes(target);
@@ -165,35 +175,33 @@ void check_meshes(const GltfFile& file) {
 }
 
 void check_nodes(const GltfFile& file) {
-    for_each_in(file, "nodes", "node", [&](const Json& node, const std::string& label) {
-        check_wholes(file, node, label, {"mesh", "skin"});
-        check_wholes_in(file, node, label, "children");
-        check_list(file, node, label, "translation", 3);
-        check_list(file, node, label, "rotation", 4);
-        check_list(file, node, label, "scale", 3);
-        check_list(file, node, label, "matrix", 16);
+    for_each_in(file, "nodes", "node", [&](const GltfObject& node) {
+        check_wholes(node, {"mesh", "skin"});
+        check_wholes_in(node, "children");
+        check_list(node, "translation", 3);
+        check_list(node, "rotation", 4);
+        check_list(node, "scale", 3);
+        check_list(node, "matrix", 16);
     });
-    for_each_in(file, "scenes", "scene", [&](const Json& scene, const std::string& label) {
-        check_wholes_in(file, scene, label, "nodes");
+    for_each_in(file, "scenes", "scene", [&](const GltfObject& scene) { check_wholes_in(scene, "nodes"); });
+    for_each_in(file, "skins", "skin", [&](const GltfObject& skin) {
+        check_wholes(skin, {"inverseBindMatrices", "skeleton"});
+        check_wholes_in(skin, "joints");
     });
-    for_each_in(file, "skins", "skin", [&](const Json& skin, const std::string& label) {
-        check_wholes(file, skin, label, {"inverseBindMatrices", "skeleton"});
-        check_wholes_in(file, skin, label, "joints");
-    });
-    check_wholes(file, file.json, "the file", {"scene"});
+    check_wholes({file, file.json, "the file"}, {"scene"});
 }
 
 void check_places(const GltfFile& file) {
-    for_each_in(file, "bufferViews", "buffer view", [&](const Json& view, const std::string& label) {
-        check_wholes(file, view, label, {"buffer", "byteOffset", "byteLength", "byteStride"});
+    for_each_in(file, "bufferViews", "buffer view", [&](const GltfObject& view) {
+        check_wholes(view, {"buffer", "byteOffset", "byteLength", "byteStride"});
     });
-    for_each_in(file, "accessors", "accessor", [&](const Json& accessor, const std::string& label) {
-        check_wholes(file, accessor, label, {"bufferView", "byteOffset"});
-        if (!accessor.contains("sparse")) return;
-        const Json& sparse = accessor["sparse"];
-        check_wholes(file, sparse, label + ": its sparse part", {"count"});
+    for_each_in(file, "accessors", "accessor", [&](const GltfObject& accessor) {
+        check_wholes(accessor, {"bufferView", "byteOffset"});
+        if (!accessor.json.contains("sparse")) return;
+        const Json& sparse = accessor.json["sparse"];
+        check_wholes({file, sparse, accessor.label + ": its sparse part"}, {"count"});
         for (const char* part : {"indices", "values"})
-            check_wholes(file, sparse.at(part), format("{}: its sparse {}", label, part),
+            check_wholes({file, sparse.at(part), format("{}: its sparse {}", accessor.label, part)},
                          {"bufferView", "byteOffset"});
     });
 }
@@ -281,8 +289,10 @@ void check_weights(const GltfFile& file, std::span<const float> weights, const s
     }
 }
 
-void check_uvs(const GltfFile& file, const Surface& surface, const Material& material, int set,
+void check_uvs(const GltfFile& file, const Surface& surface, const MaterialSet& materials,
                const std::string& what) {
+    if (surface.material < 0) return;
+    const Material& material = materials.materials[static_cast<size_t>(surface.material)];
     const Texture* textures[] = {&material.base_colour_texture,        &material.normal_texture,
                                  &material.metallic_roughness_texture, &material.occlusion_texture,
                                  &material.emissive_texture,           &material.anisotropy_texture};
@@ -293,7 +303,7 @@ void check_uvs(const GltfFile& file, const Surface& surface, const Material& mat
         file,
         format("{}: its material \"{}\" reads TEXCOORD_{}, which it lacks; write the file again with it, or "
                "with a material without textures",
-               what, material.name, set));
+               what, material.name, materials.uv_uses[static_cast<size_t>(surface.material)].set));
 }
 
 }  // namespace chironomia

@@ -7,6 +7,7 @@
 
 #include "core/body/avatar.h"
 #include "skinning/gltf/gltf_file.h"
+#include "skinning/gltf/gltf_material.h"
 
 namespace tinygltf {
 struct Accessor;
@@ -34,8 +35,8 @@ void check_inverse_bind(const GltfFile& file, const Mat4& matrix, const std::str
 // Throws Error for a weight of a vertex below 0 or above 1.
 void check_weights(const GltfFile& file, std::span<const float> weights, const std::string& what);
 
-// Throws Error if the material has a texture that reads a set of coordinates that the surface lacks.
-void check_uvs(const GltfFile& file, const Surface& surface, const Material& material, int set,
+// Throws Error if the material of a surface has a texture that reads a set of coordinates that the surface lacks.
+void check_uvs(const GltfFile& file, const Surface& surface, const MaterialSet& materials,
                const std::string& what);
 
 }  // namespace chironomia

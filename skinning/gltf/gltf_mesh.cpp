@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -41,18 +42,21 @@ std::vector<std::string> strings_in(const tinygltf::Value& extras, const char* k
     return strings;
 }
 
-// Adds the name of an expression that moves one morph of this node alone.
-void add_expression_name(std::vector<std::string>& names, const std::string& expression, const Json& binds,
-                         const char* owner_key, int owner) {
-    if (!binds.is_array() || binds.size() != 1 || !binds[0].is_object()) return;
+// The morph that an expression moves, if it is one alone and of this node or mesh.
+std::optional<size_t> bound_morph(const Json& binds, const char* owner_key, int owner) {
+    if (!binds.is_array() || binds.size() != 1 || !binds[0].is_object()) return std::nullopt;
     const Json owner_found = binds[0].value(owner_key, Json()), index = binds[0].value("index", Json());
-    if (!owner_found.is_number_integer() || owner_found != owner || !index.is_number_unsigned()) return;
-    if (index.get<size_t>() < names.size()) names[index.get<size_t>()] = expression;
+    if (!owner_found.is_number_integer() || owner_found != owner || !index.is_number_unsigned())
+        return std::nullopt;
+    return index.get<size_t>();
 }
 
 // What the expressions of a VRM call the morphs of a node: VRM 1.0 binds nodes, VRM 0.x meshes.
-std::vector<std::string> expression_names(const Json& json, int node, int mesh, size_t count) {
-    std::vector<std::string> names(count);
+std::vector<std::string> expression_names(const Json& json, const MorphSet& morphs) {
+    std::vector<std::string> names(static_cast<size_t>(morphs.morphs));
+    const auto add = [&](const std::string& name, std::optional<size_t> morph) {
+        if (morph && *morph < names.size()) names[*morph] = name;
+    };
     const Json none;
     const auto in = [&](const Json& object, const char* key) -> const Json& {
         return object.is_object() && object.contains(key) ? object[key] : none;
@@ -60,25 +64,25 @@ std::vector<std::string> expression_names(const Json& json, int node, int mesh, 
     const Json& extensions = in(json, "extensions");
     for (const char* kind : {"preset", "custom"}) {
         for (const auto& [name, expression] : in(in(in(extensions, "VRMC_vrm"), "expressions"), kind).items())
-            add_expression_name(names, name, in(expression, "morphTargetBinds"), "node", node);
+            add(name, bound_morph(in(expression, "morphTargetBinds"), "node", morphs.node));
     }
     for (const Json& group : in(in(in(extensions, "VRM"), "blendShapeMaster"), "blendShapeGroups")) {
         const Json& name = in(group, "name");
         if (name.is_string())
-            add_expression_name(names, name.get<std::string>(), in(group, "binds"), "mesh", mesh);
+            add(name.get<std::string>(), bound_morph(in(group, "binds"), "mesh", morphs.mesh));
     }
     return names;
 }
 
 // The names that the mesh gives its morphs, else those of a VRM's expressions, else numbers.
-std::vector<std::string> morph_names(const GltfFile& file, const tinygltf::Mesh& mesh, int mesh_index,
-                                     int node, size_t count) {
+std::vector<std::string> morph_names(const GltfFile& file, const tinygltf::Mesh& mesh,
+                                     const MorphSet& morphs) {
     std::vector<std::string> names = strings_in(mesh.extras, "targetNames");
     if (names.empty() && !mesh.primitives.empty())
         names = strings_in(mesh.primitives.front().extras, "targetNames");
-    names.resize(count);
-    const std::vector<std::string> expressions = expression_names(file.json, node, mesh_index, count);
-    for (size_t m = 0; m < count; ++m) {
+    const std::vector<std::string> expressions = expression_names(file.json, morphs);
+    names.resize(expressions.size());
+    for (size_t m = 0; m < names.size(); ++m) {
         if (names[m].empty()) names[m] = expressions[m];
         if (names[m].empty()) names[m] = format("morph {}", m);
     }
@@ -161,6 +165,13 @@ void drop_unused_vertices(Surface& surface) {
     for (Morph& morph : surface.morphs) keep_moves(morph, new_place);
 }
 
+// The attributes of a primitive, or of a morph of it.
+struct VertexData {
+    const std::map<std::string, int>& accessors;  // "NORMAL" and its accessor
+    size_t vertices = 0;
+    std::string label;  // for messages
+};
+
 class MeshReader {
   public:
     MeshReader(Accessors& accessors, const tinygltf::Model& model, const MeshContext& context)
@@ -175,14 +186,13 @@ class MeshReader {
     Surface surface_of(const tinygltf::Primitive& primitive, const std::string& label);
     std::vector<std::uint32_t> corners(const tinygltf::Primitive& primitive, const Surface& surface,
                                        const std::string& label);
-    void add_uvs(Surface& surface, const tinygltf::Primitive& primitive, const std::string& label);
-    void add_colours(Surface& surface, const tinygltf::Primitive& primitive, const std::string& label);
-    void add_tangents(Surface& surface, const tinygltf::Primitive& primitive, const std::string& label);
-    void add_influences(Surface& surface, const tinygltf::Primitive& primitive, const std::string& label);
-    Morph morph_of(const std::map<std::string, int>& target, size_t vertices, const std::string& label);
-    // The vectors of an attribute, one a vertex; empty if the primitive lacks it.
-    std::vector<float> attribute(const std::map<std::string, int>& attributes, const std::string& name,
-                                 size_t components, size_t vertices, const std::string& label);
+    void add_uvs(Surface& surface, const VertexData& data);
+    void add_colours(Surface& surface, const VertexData& data);
+    void add_tangents(Surface& surface, const VertexData& data);
+    void add_influences(Surface& surface, const VertexData& data);
+    Morph morph_of(const VertexData& target);
+    // The vectors of an attribute, one a vertex; empty if there are none.
+    std::vector<float> attribute(const VertexData& data, const std::string& name, size_t components);
     int checked_material(int material, const std::string& label);
 
     Accessors& accessors_;
@@ -201,13 +211,11 @@ void check_count(const GltfFile& file, size_t count, size_t vertices, const std:
     }
 }
 
-std::vector<float> MeshReader::attribute(const std::map<std::string, int>& attributes,
-                                         const std::string& name, size_t components, size_t vertices,
-                                         const std::string& label) {
-    const auto found = attributes.find(name);
-    if (found == attributes.end()) return {};
-    const std::string what = label + ": " + name;
-    check_count(file_, accessors_.count(found->second, what), vertices, what);
+std::vector<float> MeshReader::attribute(const VertexData& data, const std::string& name, size_t components) {
+    const auto found = data.accessors.find(name);
+    if (found == data.accessors.end()) return {};
+    const std::string what = data.label + ": " + name;
+    check_count(file_, accessors_.count(found->second, what), data.vertices, what);
     check_attribute_type(file_, model_.accessors[static_cast<size_t>(found->second)], name, what);
     return accessors_.floats(found->second, components, what);
 }
@@ -246,42 +254,34 @@ int MeshReader::checked_material(int material, const std::string& label) {
     return std::max(material, -1);
 }
 
-void MeshReader::add_uvs(Surface& surface, const tinygltf::Primitive& primitive, const std::string& label) {
+void MeshReader::add_uvs(Surface& surface, const VertexData& data) {
     const UvUse use =
         surface.material < 0 ? UvUse{} : context_.materials.uv_uses[static_cast<size_t>(surface.material)];
-    const std::vector<float> numbers =
-        attribute(primitive.attributes, format("TEXCOORD_{}", use.set), 2, surface.positions.size(), label);
+    const std::vector<float> numbers = attribute(data, format("TEXCOORD_{}", use.set), 2);
     const float cosine = std::cos(use.rotation), sine = std::sin(use.rotation);
     for (size_t n = 0; n + 1 < numbers.size(); n += 2) {
         const Vec2 uv = Vec2(numbers[n], numbers[n + 1]) * use.scale;
         surface.uvs.push_back(Vec2(cosine * uv.x + sine * uv.y, -sine * uv.x + cosine * uv.y) + use.offset);
     }
-    if (surface.material >= 0) {
-        check_uvs(file_, surface, context_.materials.materials[static_cast<size_t>(surface.material)],
-                  use.set, label);
-    }
+    check_uvs(file_, surface, context_.materials, data.label);
 }
 
-void MeshReader::add_colours(Surface& surface, const tinygltf::Primitive& primitive,
-                             const std::string& label) {
-    const auto found = primitive.attributes.find("COLOR_0");
-    if (found == primitive.attributes.end()) return;
-    const size_t components = accessors_.components(found->second, label + ": COLOR_0") == 3 ? 3 : 4;
-    const std::vector<float> numbers =
-        attribute(primitive.attributes, "COLOR_0", components, surface.positions.size(), label);
+void MeshReader::add_colours(Surface& surface, const VertexData& data) {
+    const auto found = data.accessors.find("COLOR_0");
+    if (found == data.accessors.end()) return;
+    const size_t components = accessors_.components(found->second, data.label + ": COLOR_0") == 3 ? 3 : 4;
+    const std::vector<float> numbers = attribute(data, "COLOR_0", components);
     for (size_t n = 0; n + components <= numbers.size(); n += components) {
         surface.colours.push_back(
             {numbers[n], numbers[n + 1], numbers[n + 2], components == 4 ? numbers[n + 3] : 1.0f});
     }
 }
 
-void MeshReader::add_tangents(Surface& surface, const tinygltf::Primitive& primitive,
-                              const std::string& label) {
+void MeshReader::add_tangents(Surface& surface, const VertexData& data) {
     if (surface.material < 0) return;
     const Material& material = context_.materials.materials[static_cast<size_t>(surface.material)];
     if (material.normal_texture.image < 0 && material.anisotropy <= 0) return;
-    const std::vector<float> numbers =
-        attribute(primitive.attributes, "TANGENT", 4, surface.positions.size(), label);
+    const std::vector<float> numbers = attribute(data, "TANGENT", 4);
     for (size_t n = 0; n + 3 < numbers.size(); n += 4) {
         const Vec3 along = unit_or({numbers[n], numbers[n + 1], numbers[n + 2]}, {1, 0, 0});
         surface.tangents.emplace_back(along, numbers[n + 3] < 0 ? -1.0f : 1.0f);
@@ -289,18 +289,17 @@ void MeshReader::add_tangents(Surface& surface, const tinygltf::Primitive& primi
     if (surface.tangents.empty() && !surface.uvs.empty()) surface.tangents = vertex_tangents(surface);
 }
 
-void MeshReader::add_influences(Surface& surface, const tinygltf::Primitive& primitive,
-                                const std::string& label) {
-    const size_t vertices = surface.positions.size();
+void MeshReader::add_influences(Surface& surface, const VertexData& data) {
+    const auto& [accessors, vertices, label] = data;
     const size_t joints = context_.skins[static_cast<size_t>(surface.skin)].joints.size();
     std::vector<std::vector<std::uint32_t>> joint_sets;
     std::vector<std::vector<float>> weight_sets;
-    for (int set = 0; primitive.attributes.contains(format("JOINTS_{}", set)); ++set) {
+    for (int set = 0; accessors.contains(format("JOINTS_{}", set)); ++set) {
         const std::string name = format("JOINTS_{}", set);
-        const int accessor = primitive.attributes.at(name);
+        const int accessor = accessors.at(name);
         check_count(file_, accessors_.count(accessor, label + ": " + name), vertices, label + ": " + name);
         joint_sets.push_back(accessors_.integers(accessor, 4, label + ": " + name));
-        weight_sets.push_back(attribute(primitive.attributes, format("WEIGHTS_{}", set), 4, vertices, label));
+        weight_sets.push_back(attribute(data, format("WEIGHTS_{}", set), 4));
         if (weight_sets.back().empty() && vertices > 0)
             refuse(file_, format("{} has {} without WEIGHTS_{}; the file is broken, get it again", label,
                                  name, set));
@@ -346,12 +345,11 @@ void MeshReader::add_influences(Surface& surface, const tinygltf::Primitive& pri
                                 label, uneven, vertices, low == high ? low : format("{} to {}", low, high)));
 }
 
-Morph MeshReader::morph_of(const std::map<std::string, int>& target, size_t vertices,
-                           const std::string& label) {
-    const std::vector<Vec3> moves = to_vec3(attribute(target, "POSITION", 3, vertices, label));
-    const std::vector<Vec3> normal_moves = to_vec3(attribute(target, "NORMAL", 3, vertices, label));
+Morph MeshReader::morph_of(const VertexData& target) {
+    const std::vector<Vec3> moves = to_vec3(attribute(target, "POSITION", 3));
+    const std::vector<Vec3> normal_moves = to_vec3(attribute(target, "NORMAL", 3));
     Morph morph;
-    for (size_t v = 0; v < vertices; ++v) {
+    for (size_t v = 0; v < target.vertices; ++v) {
         const Vec3 move = moves.empty() ? Vec3(0) : moves[v];
         const Vec3 normal_move = normal_moves.empty() ? Vec3(0) : normal_moves[v];
         if (move == Vec3(0) && normal_move == Vec3(0)) continue;
@@ -379,12 +377,14 @@ Surface MeshReader::surface_of(const tinygltf::Primitive& primitive, const std::
     check_bounds(file_, accessor, numbers, label + ": POSITION");
     surface.positions = to_vec3(numbers);
     surface.triangles = corners(primitive, surface, label);
-    surface.normals = to_vec3(attribute(primitive.attributes, "NORMAL", 3, surface.positions.size(), label));
+    const VertexData data{
+        .accessors = primitive.attributes, .vertices = surface.positions.size(), .label = label};
+    surface.normals = to_vec3(attribute(data, "NORMAL", 3));
     for (Vec3& normal : surface.normals) normal = unit_or(normal, {0, 0, 1});
     if (surface.normals.empty()) surface.normals = vertex_normals(surface.positions, surface.triangles);
-    add_uvs(surface, primitive, label);
-    add_colours(surface, primitive, label);
-    add_tangents(surface, primitive, label);
+    add_uvs(surface, data);
+    add_colours(surface, data);
+    add_tangents(surface, data);
     return surface;
 }
 
@@ -416,8 +416,11 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
     if (first_weight + morphs > kMostMorphs)
         refuse(file_, format("has more than {} morph targets; use a smaller model", kMostMorphs));
 
-    const std::vector<std::string> names =
-        morph_names(file_, mesh, node.mesh, context_.nodes.node_of_joint[static_cast<size_t>(joint)], morphs);
+    const MorphSet morph_set{.node = context_.nodes.node_of_joint[static_cast<size_t>(joint)],
+                             .mesh = node.mesh,
+                             .first = static_cast<int>(first_weight),
+                             .morphs = static_cast<int>(morphs)};
+    const std::vector<std::string> names = morph_names(file_, mesh, morph_set);
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
         if (!has_triangles(primitive.mode)) continue;
         Surface surface = surface_of(primitive, label);
@@ -433,11 +436,14 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
                         "{} has skin {} and no JOINTS_0; write the file again with it, or without the skin",
                         label, surface.skin));
             }
-            add_influences(surface, primitive, label);
+            add_influences(
+                surface,
+                {.accessors = primitive.attributes, .vertices = surface.positions.size(), .label = label});
         }
         for (size_t m = 0; m < primitive.targets.size(); ++m) {
-            surface.morphs.push_back(morph_of(primitive.targets[m], surface.positions.size(),
-                                              format("{}: morph \"{}\"", label, names[m])));
+            surface.morphs.push_back(morph_of({.accessors = primitive.targets[m],
+                                               .vertices = surface.positions.size(),
+                                               .label = format("{}: morph \"{}\"", label, names[m])}));
             surface.morphs.back().name = names[m];
         }
         if (surface.triangles.empty()) continue;
@@ -446,10 +452,7 @@ void MeshReader::add_node(int joint, const tinygltf::Node& node) {
     }
 
     add_rest_weights(node, mesh, morphs, label);
-    set_.morph_sets.push_back({.node = context_.nodes.node_of_joint[static_cast<size_t>(joint)],
-                               .mesh = node.mesh,
-                               .first = static_cast<int>(first_weight),
-                               .morphs = static_cast<int>(morphs)});
+    set_.morph_sets.push_back(morph_set);
     set_.morph_names.insert(set_.morph_names.end(), names.begin(), names.end());
 }
 

@@ -132,18 +132,6 @@ std::string bone_in_snake_case(const std::string& bone, bool version_0) {
     return snake;
 }
 
-void add_vrm_bone(HumanoidMap& map, const GltfFile& file, const NodeTree& nodes, const std::string& name,
-                  const Json& bone) {
-    const std::optional<HumanJoint> part = human_joint_named(name);
-    const int node = bone.is_object() ? bone.value("node", -1) : -1;
-    if (!part || node < 0) return;
-    if (static_cast<size_t>(node) >= nodes.joint_of_node.size()) {
-        refuse(file, format("its VRM bone {} is node {}, there are {}; the file is broken, get it again",
-                            name, node, nodes.joint_of_node.size()));
-    }
-    map[*part] = nodes.joint_of_node[static_cast<size_t>(node)];
-}
-
 }  // namespace
 
 Transform decompose(const Mat4& matrix, const GltfFile& file, const std::string& what) {
@@ -288,14 +276,24 @@ std::vector<bool> joints_of(const Avatar& avatar) {
 
 HumanoidMap read_vrm_humanoid(const GltfFile& file, const NodeTree& nodes) {
     HumanoidMap map;
+    const auto add_bone = [&](const std::string& name, const Json& bone) {
+        const std::optional<HumanJoint> part = human_joint_named(name);
+        const int node = bone.is_object() ? bone.value("node", -1) : -1;
+        if (!part || node < 0) return;
+        if (static_cast<size_t>(node) >= nodes.joint_of_node.size()) {
+            refuse(file, format("its VRM bone {} is node {}, there are {}; the file is broken, get it again",
+                                name, node, nodes.joint_of_node.size()));
+        }
+        map[*part] = nodes.joint_of_node[static_cast<size_t>(node)];
+    };
     const Json extensions = file.json.value("extensions", Json::object());
     try {
         if (extensions.contains("VRMC_vrm")) {
             for (const auto& [name, bone] : extensions["VRMC_vrm"].at("humanoid").at("humanBones").items())
-                add_vrm_bone(map, file, nodes, bone_in_snake_case(name, false), bone);
+                add_bone(bone_in_snake_case(name, false), bone);
         } else if (extensions.contains("VRM")) {
             for (const Json& bone : extensions["VRM"].at("humanoid").at("humanBones"))
-                add_vrm_bone(map, file, nodes, bone_in_snake_case(bone.value("bone", ""), true), bone);
+                add_bone(bone_in_snake_case(bone.value("bone", ""), true), bone);
         }
     } catch (const Json::exception& fault) {
         refuse(file, format("its VRM humanoid is broken: {}; write the file again", fault_of(fault)));
