@@ -73,16 +73,16 @@ std::vector<double> round_ticks(double low, double high, int count) {
 
 void draw_axis(Svg& svg, const Axis& axis, double top, double bottom) {
     for (const double tick : axis.ticks) {
-        svg.line(axis.at(tick), top, axis.at(tick), bottom, {.line = kGrid});
-        svg.words(axis.at(tick), bottom + 17, axis.tick_text(tick),
+        svg.line({axis.at(tick), top}, {axis.at(tick), bottom}, {.line = kGrid});
+        svg.words({axis.at(tick), bottom + 17}, axis.tick_text(tick),
                   {.size = 12, .anchor = "middle", .fill = kQuiet});
     }
-    svg.line(axis.left, bottom, axis.right, bottom, {.line = "#8a949e"});
+    svg.line({axis.left, bottom}, {axis.right, bottom}, {.line = "#8a949e"});
 }
 
 void draw_simulated(Svg& svg, const Dataset& data, double height) {
     if (data.simulated)
-        svg.words(kWidth - kRight, height - 8, kSimulatedRaters,
+        svg.words({kWidth - kRight, height - 8}, kSimulatedRaters,
                   {.size = 12, .anchor = "end", .fill = "#a3341f", .bold = true});
 }
 
@@ -112,23 +112,24 @@ std::string density_plot(const Dataset& data, const ScoreResult& result) {
         const CellResult& cell = result.cells[i];
         const Summary& scores = cell.participants;
         const double base = kTop + kRow * static_cast<double>(i) + 56;
-        svg.words(0, base - 22, shortened(labels[i], kMostLabel, 13), {.bold = true});
-        svg.words(0, base - 5, notes[i], {.size = 12, .fill = kQuiet});
+        svg.words({0, base - 22}, shortened(labels[i], kMostLabel, 13), {.bold = true});
+        svg.words({0, base - 5}, notes[i], {.size = 12, .fill = kQuiet});
         if (cell.density) {
-            std::vector<std::pair<double, double>> hill = {{axis.at(cell.density->at.front()), base}};
+            std::vector<Point> hill = {{axis.at(cell.density->at.front()), base}};
             for (std::size_t k = 0; k < cell.density->at.size(); ++k)
-                hill.emplace_back(axis.at(cell.density->at[k]),
-                                  base - kHill * cell.density->height[k] / highest);
-            hill.emplace_back(axis.at(cell.density->at.back()), base);
+                hill.push_back(
+                    {axis.at(cell.density->at[k]), base - kHill * cell.density->height[k] / highest});
+            hill.push_back({axis.at(cell.density->at.back()), base});
             svg.polyline(hill, true, {.fill = kAccent, .line = kAccent, .width = 1.5, .opacity = 0.22});
         }
-        svg.line(axis.left, base, axis.right, base, {.line = "#b6bfc8"});
+        svg.line({axis.left, base}, {axis.right, base}, {.line = "#b6bfc8"});
         const double y = base + 9;
         if (scores.mean_95)
-            svg.line(axis.at(std::max(scores.mean_95->low, axis.low)), y,
-                     axis.at(std::min(scores.mean_95->high, axis.high)), y, {.line = kInk, .width = 2.5});
-        svg.circle(axis.at(scores.mean), y, 4.5, {.fill = kInk});
-        svg.line(axis.at(scores.median), y - 6, axis.at(scores.median), y + 6, {.line = kInk, .width = 1.5});
+            svg.line({axis.at(std::max(scores.mean_95->low, axis.low)), y},
+                     {axis.at(std::min(scores.mean_95->high, axis.high)), y}, {.line = kInk, .width = 2.5});
+        svg.circle({axis.at(scores.mean), y}, 4.5, {.fill = kInk});
+        svg.line({axis.at(scores.median), y - 6}, {axis.at(scores.median), y + 6},
+                 {.line = kInk, .width = 1.5});
     }
     draw_simulated(svg, data, height);
     return svg.text();
@@ -161,27 +162,27 @@ std::string forest_plot(const Dataset& data, const std::vector<ForestRow>& rows,
     axis.right = kWidth - kRight - kValues;
     draw_axis(svg, axis, kTop, bottom);
     if (style.reference)
-        svg.line(axis.at(*style.reference), kTop, axis.at(*style.reference), bottom,
+        svg.line({axis.at(*style.reference), kTop}, {axis.at(*style.reference), bottom},
                  {.line = kInk, .width = 1.5, .dash = "5 4"});
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const ForestRow& row = rows[i];
         const double y = kTop + kRow * (static_cast<double>(i) + 0.5);
-        svg.words(0, y - 1, shortened(row.label, kMostLabel, 13), {.bold = true});
-        svg.words(0, y + 14, row.note, {.size = 11.5, .fill = kQuiet});
+        svg.words({0, y - 1}, shortened(row.label, kMostLabel, 13), {.bold = true});
+        svg.words({0, y + 14}, row.note, {.size = 11.5, .fill = kQuiet});
         const auto inside = [&](double value) { return axis.at(std::clamp(value, axis.low, axis.high)); };
         if (style.bars)
-            svg.rectangle(axis.left, y - 9, inside(row.value) - axis.left, 18, {.fill = "#8fb3da"});
+            svg.rectangle({axis.left, y - 9, inside(row.value) - axis.left, 18}, {.fill = "#8fb3da"});
         if (row.interval) {
-            svg.line(inside(row.interval->low), y, inside(row.interval->high), y,
+            svg.line({inside(row.interval->low), y}, {inside(row.interval->high), y},
                      {.line = kInk, .width = 2.5});
             for (const double end : {row.interval->low, row.interval->high}) {
                 if (end >= axis.low && end <= axis.high)
-                    svg.line(inside(end), y - 5, inside(end), y + 5, {.line = kInk, .width = 2});
+                    svg.line({inside(end), y - 5}, {inside(end), y + 5}, {.line = kInk, .width = 2});
             }
         }
         if (!style.bars)
-            svg.circle(inside(row.value), y, 5.5, {.fill = kAccent, .line = "#ffffff", .width = 1.5});
-        svg.words(axis.right + 16, y + 5, row.text, {.size = 13});
+            svg.circle({inside(row.value), y}, 5.5, {.fill = kAccent, .line = "#ffffff", .width = 1.5});
+        svg.words({axis.right + 16, y + 5}, row.text, {.size = 13});
     }
     draw_simulated(svg, data, height);
     return svg.text();
@@ -240,16 +241,16 @@ std::string wins_plot(const Dataset& data, const VoteResult& result) {
     const double height = kTop + kRow * static_cast<double>(result.pairs.size()) + 20;
     Svg svg(kWidth, height, format("Wins, ties and losses of {}", data.questions[result.question].id));
     const double left = 8, right = kWidth - 8;
-    svg.words(left, 16, "clearly, slightly", {.size = 12, .fill = kQuiet});
-    svg.words((left + right) / 2, 16, "equal", {.size = 12, .anchor = "middle", .fill = kQuiet});
-    svg.words(right, 16, "slightly, clearly", {.size = 12, .anchor = "end", .fill = kQuiet});
+    svg.words({left, 16}, "clearly, slightly", {.size = 12, .fill = kQuiet});
+    svg.words({(left + right) / 2, 16}, "equal", {.size = 12, .anchor = "middle", .fill = kQuiet});
+    svg.words({right, 16}, "slightly, clearly", {.size = 12, .anchor = "end", .fill = kQuiet});
     for (std::size_t i = 0; i < result.pairs.size(); ++i) {
         const VotePair& pair = result.pairs[i];
         const double y = kTop + kRow * static_cast<double>(i);
-        svg.words(left, y + 12, shortened(data.conditions[pair.first].name, 280, 13), {.bold = true});
-        svg.words(right, y + 12, shortened(data.conditions[pair.second].name, 280, 13),
+        svg.words({left, y + 12}, shortened(data.conditions[pair.first].name, 280, 13), {.bold = true});
+        svg.words({right, y + 12}, shortened(data.conditions[pair.second].name, 280, 13),
                   {.anchor = "end", .bold = true});
-        svg.words((left + right) / 2, y + 12, format("{} votes, n = {}", pair.votes(), pair.participants),
+        svg.words({(left + right) / 2, y + 12}, format("{} votes, n = {}", pair.votes(), pair.participants),
                   {.size = 12, .anchor = "middle", .fill = kQuiet});
         const std::size_t counts[] = {pair.clear_wins, pair.wins - pair.clear_wins, pair.ties,
                                       pair.losses - pair.clear_losses, pair.clear_losses};
@@ -257,16 +258,16 @@ std::string wins_plot(const Dataset& data, const VoteResult& result) {
         for (std::size_t k = 0; k < 5; ++k) {
             const double share = static_cast<double>(counts[k]) / static_cast<double>(pair.votes());
             const double width = share * (right - left);
-            svg.rectangle(x, y + 19, width, kBar, {.fill = kFills[k], .line = "#ffffff", .width = 1.5});
+            svg.rectangle({x, y + 19, width, kBar}, {.fill = kFills[k], .line = "#ffffff", .width = 1.5});
             if (width > 40)
-                svg.words(x + width / 2, y + 37, format("{:.0f} %", 100 * share),
+                svg.words({x + width / 2, y + 37}, format("{:.0f} %", 100 * share),
                           {.size = 12.5, .anchor = "middle", .fill = kTexts[k]});
             x += width;
         }
-        svg.rectangle(left, y + 19, right - left, kBar, {.line = "#8a949e"});
+        svg.rectangle({left, y + 19, right - left, kBar}, {.line = "#8a949e"});
         // Half of the votes, above and below so that no number is crossed out.
-        svg.line((left + right) / 2, y + 15, (left + right) / 2, y + 20, {.line = kInk, .width = 1.5});
-        svg.line((left + right) / 2, y + 44, (left + right) / 2, y + 49, {.line = kInk, .width = 1.5});
+        svg.line({(left + right) / 2, y + 15}, {(left + right) / 2, y + 20}, {.line = kInk, .width = 1.5});
+        svg.line({(left + right) / 2, y + 44}, {(left + right) / 2, y + 49}, {.line = kInk, .width = 1.5});
     }
     draw_simulated(svg, data, height);
     return svg.text();
@@ -293,9 +294,9 @@ std::string heat_plot(const Dataset& data, const VoteResult& result, const EloRe
     Svg svg(kWidth, height, format("Weighted share of wins of {}", data.questions[result.question].id));
     for (std::size_t i = 0; i < order.size(); ++i) {
         const double y = top + tall * static_cast<double>(i);
-        svg.words(left - 10, y + tall / 2 + 4, shortened(names[i], kMostLabel, 13),
+        svg.words({left - 10, y + tall / 2 + 4}, shortened(names[i], kMostLabel, 13),
                   {.anchor = "end", .bold = true});
-        svg.words(left + cell * (static_cast<double>(i) + 0.5), top - 10, shortened(names[i], cell - 6, 12),
+        svg.words({left + cell * (static_cast<double>(i) + 0.5), top - 10}, shortened(names[i], cell - 6, 12),
                   {.size = 12, .anchor = "middle"});
         for (std::size_t j = 0; j < order.size(); ++j) {
             const double x = left + cell * static_cast<double>(j);
@@ -304,15 +305,15 @@ std::string heat_plot(const Dataset& data, const VoteResult& result, const EloRe
                     return std::minmax(each.first, each.second) == std::minmax(order[i], order[j]);
                 });
             if (pair == result.pairs.end()) {
-                svg.rectangle(x, y, cell, tall, {.fill = "#f4f6f7", .line = "#ffffff", .width = 2});
+                svg.rectangle({x, y, cell, tall}, {.fill = "#f4f6f7", .line = "#ffffff", .width = 2});
                 continue;
             }
             const double share = pair->first == order[i] ? pair->share.share : 1 - pair->share.share;
-            svg.rectangle(x, y, cell, tall, {.fill = shade(share), .line = "#ffffff", .width = 2});
+            svg.rectangle({x, y, cell, tall}, {.fill = shade(share), .line = "#ffffff", .width = 2});
             const char* ink = share > 0.5 ? "#ffffff" : kInk;
-            svg.words(x + cell / 2, y + tall / 2, in_percent(share),
+            svg.words({x + cell / 2, y + tall / 2}, in_percent(share),
                       {.size = 13, .anchor = "middle", .fill = ink, .bold = true});
-            svg.words(x + cell / 2, y + tall / 2 + 16, format("n = {}", pair->votes()),
+            svg.words({x + cell / 2, y + tall / 2 + 16}, format("n = {}", pair->votes()),
                       {.size = 11, .anchor = "middle", .fill = ink});
         }
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -63,16 +64,17 @@ const std::array<Corners, kShapes>& shapes() {
     return all;
 }
 
-void draw_symbol(Svg& svg, double x, double y, std::size_t group, double size = kSymbol) {
+void draw_symbol(Svg& svg, const Point& middle, std::size_t group, double size = kSymbol) {
     const Paint paint{.fill = kGroupColours[group % kGroupColours.size()],
                       .line = "#ffffff",
                       .width = 0.8,
                       .opacity = 0.85};
     const Corners& corners = shapes()[group % shapes().size()];
-    if (corners.empty()) return svg.circle(x, y, size, paint);
-    std::vector<std::pair<double, double>> outline;
+    if (corners.empty()) return svg.circle(middle, size, paint);
+    std::vector<Point> outline;
     for (const auto& [angle, radius] : corners)
-        outline.emplace_back(x + size * radius * std::cos(angle), y + size * radius * std::sin(angle));
+        outline.push_back(
+            {middle.x + size * radius * std::cos(angle), middle.y + size * radius * std::sin(angle)});
     svg.polyline(outline, true, paint);
 }
 
@@ -101,10 +103,10 @@ struct PlotFrame {
         const double side = std::max(x.high - x.low, y.high - y.low);
         return side > 0 ? kPlotSide / side : 0;
     }
-    double across(double value) const {
-        return kScatterEdge + kPlotSide / 2 + scale() * (value - x.middle());
+    Point place_of(const ScatterPoint& point) const {
+        return {kScatterEdge + kPlotSide / 2 + scale() * (point.x - x.middle()),
+                kScatterTop + kPlotSide / 2 - scale() * (point.y - y.middle())};
     }
-    double down(double value) const { return kScatterTop + kPlotSide / 2 - scale() * (value - y.middle()); }
 };
 
 PlotFrame frame_of(const std::vector<ScatterPoint>& points) {
@@ -149,8 +151,8 @@ void draw_legend(Svg& svg, const ScatterPlot& plot) {
     for (std::size_t group = 0; group < plot.groups.size(); ++group) {
         const double x = left + column * static_cast<double>(group / legend_rows(plot));
         const double y = kScatterTop + 12 + kLegendRow * static_cast<double>(group % legend_rows(plot));
-        draw_symbol(svg, x + kSymbol, y, group);
-        svg.words(x + 20, y + 4.5, plot.groups[group], {});
+        draw_symbol(svg, {x + kSymbol, y}, group);
+        svg.words({x + 20, y + 4.5}, plot.groups[group], {});
     }
 }
 
@@ -161,12 +163,11 @@ std::string draw_scatter_plot(const ScatterPlot& plot) {
     const std::size_t columns = (plot.groups.size() + legend_rows(plot) - 1) / legend_rows(plot);
     const double width = kPlotSide + 3 * kScatterEdge + legend_column(plot) * static_cast<double>(columns);
     Svg svg(width, kScatterTop + kPlotSide + kScatterEdge, plot.title);
-    svg.words(kScatterEdge, 30, plot.title, {.size = 16, .bold = true});
-    svg.rectangle(kScatterEdge - 12, kScatterTop - 12, kPlotSide + 24, kPlotSide + 24, {.fill = "#f6f8fa"});
+    svg.words({kScatterEdge, 30}, plot.title, {.size = 16, .bold = true});
+    svg.rectangle({kScatterEdge - 12, kScatterTop - 12, kPlotSide + 24, kPlotSide + 24}, {.fill = "#f6f8fa"});
     const PlotFrame frame = frame_of(plot.points);
     const double size = symbol_size(plot.points.size());
-    for (const ScatterPoint& point : plot.points)
-        draw_symbol(svg, frame.across(point.x), frame.down(point.y), point.group, size);
+    for (const ScatterPoint& point : plot.points) draw_symbol(svg, frame.place_of(point), point.group, size);
     draw_legend(svg, plot);
     return svg.text();
 }

@@ -1,6 +1,7 @@
 #include "study/analysis/svg.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/text.h"
 #include "study/html/html.h"
@@ -21,31 +22,33 @@ std::string attributes(const Paint& paint) {
 Svg::Svg(double width, double height, std::string description)
     : width_(width), height_(height), description_(std::move(description)) {}
 
-void Svg::line(double x1, double y1, double x2, double y2, const Paint& paint) {
-    body_ += format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x1, y1, x2, y2,
+void Svg::line(const Point& from, const Point& to, const Paint& paint) {
+    body_ += format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", from.x, from.y,
+                    to.x, to.y, attributes(paint));
+}
+
+void Svg::rectangle(const Box& box, const Paint& paint) {
+    body_ += format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n", box.x, box.y,
+                    std::max(box.width, 0.0), std::max(box.height, 0.0), attributes(paint));
+}
+
+void Svg::circle(const Point& middle, double radius, const Paint& paint) {
+    body_ += format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" {}/>\n", middle.x, middle.y, radius,
                     attributes(paint));
 }
 
-void Svg::rectangle(double x, double y, double width, double height, const Paint& paint) {
-    body_ += format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" {}/>\n", x, y,
-                    std::max(width, 0.0), std::max(height, 0.0), attributes(paint));
-}
-
-void Svg::circle(double x, double y, double radius, const Paint& paint) {
-    body_ += format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" {}/>\n", x, y, radius, attributes(paint));
-}
-
-void Svg::polyline(const std::vector<std::pair<double, double>>& points, bool closed, const Paint& paint) {
+void Svg::polyline(const std::vector<Point>& points, bool closed, const Paint& paint) {
     std::string path;
     for (const auto& [x, y] : points) path += format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x, y);
     body_ += format("<path d=\"{}{}\" stroke-linejoin=\"round\" {}/>\n", path, closed ? "Z" : "",
                     attributes(paint));
 }
 
-void Svg::words(double x, double y, std::string_view text, const Words& words) {
+void Svg::words(const Point& at, std::string_view text, const Words& words) {
     body_ += format(
-        "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n", x,
-        y, words.size, words.anchor, words.fill, words.bold ? " font-weight=\"600\"" : "", escape_html(text));
+        "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:g}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n",
+        at.x, at.y, words.size, words.anchor, words.fill, words.bold ? " font-weight=\"600\"" : "",
+        escape_html(text));
 }
 
 std::string Svg::text() const {

@@ -3,10 +3,19 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace chironomia::study::analysis {
+
+struct Point {
+    double x = 0;  // to the right [px]
+    double y = 0;  // down [px]
+};
+
+struct Box {
+    double x = 0, y = 0;           // of its upper left corner [px]
+    double width = 0, height = 0;  // below 0: 0 [px]
+};
 
 struct Paint {
     std::string fill = "none";
@@ -23,17 +32,16 @@ struct Words {
     bool bold = false;
 };
 
-// Coordinates in pixels, x to the right, y down.
 class Svg {
   public:
     // `description` is read to those who cannot see it.
     Svg(double width, double height, std::string description);
 
-    void line(double x1, double y1, double x2, double y2, const Paint& paint);
-    void rectangle(double x, double y, double width, double height, const Paint& paint);
-    void circle(double x, double y, double radius, const Paint& paint);
-    void polyline(const std::vector<std::pair<double, double>>& points, bool closed, const Paint& paint);
-    void words(double x, double y, std::string_view text, const Words& words);
+    void line(const Point& from, const Point& to, const Paint& paint);
+    void rectangle(const Box& box, const Paint& paint);
+    void circle(const Point& middle, double radius, const Paint& paint);
+    void polyline(const std::vector<Point>& points, bool closed, const Paint& paint);
+    void words(const Point& at, std::string_view text, const Words& words);
 
     // The whole file, on white.
     std::string text() const;

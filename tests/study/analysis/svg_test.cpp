@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 
 TEST(Svg, StandsAloneAndSaysWhatItShows) {
     Svg svg(100, 50, "a & b");
-    svg.words(1, 2, "x < y", {.bold = true});
+    svg.words({1, 2}, "x < y", {.bold = true});
     svg.polyline({{0, 0}, {10, 5}}, true, {.fill = "#000000", .opacity = 0.5});
     const std::string text = svg.text();
     EXPECT_THAT(text, HasSubstr("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 100 50\""));
