@@ -46,6 +46,7 @@ struct Joining {
     const PagePass& pass;
     const PageAnswer& answer;
     std::size_t participant = 0;
+    std::size_t trial = 0;  // of the participant's answers
 };
 
 std::vector<std::string> chosen_reasons(const Json& reasons, const std::string& question) {
@@ -248,14 +249,13 @@ std::string shown_text(const Json& value) {
                              : value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void add_row(Dataset& data, const Joining& join, std::size_t question, std::size_t trial,
-             const Json& in_places) {
+void add_row(Dataset& data, const Joining& join, std::size_t question, const Json& in_places) {
     std::vector<std::size_t> shown;
     for (const std::size_t place : join.answer.order) shown.push_back(join.page.places[place].condition);
     data.rows.push_back({.participant = join.participant,
                          .question = question,
                          .block = join.page.block,
-                         .trial = trial,
+                         .trial = join.trial,
                          .kind = join.page.kind,
                          .clip = join.page.clip,
                          .conditions = names_of(data.conditions, shown, "|"),
@@ -301,9 +301,13 @@ struct Uncounted {
     std::size_t incomplete = 0;  // answers without some items of a scale
 };
 
-// Adds the scores of a scale, `question`, of the video or videos that `given` rates.
-void add_scale(Dataset& data, const Scale& scale, std::size_t question, const Joining& join,
-               const std::vector<Score>& given, Uncounted& uncounted) {
+// Adds the scores of the scale of this index, of the video or videos that `given` rates. How many of them lack some
+// items.
+std::size_t add_scale(Dataset& data, const Joining& join, std::size_t index,
+                      const std::vector<Score>& given) {
+    const Scale& scale = join.key.scales[index];
+    const std::size_t question = join.key.questions.size() + index;
+    std::size_t incomplete = 0;
     std::map<std::size_t, std::map<std::size_t, Score>> by_unit;  // and by item
     for (const Score& score : given) by_unit[score.unit][score.question] = score;
     for (const auto& [unit, scores] : by_unit) {
@@ -317,7 +321,7 @@ void add_scale(Dataset& data, const Scale& scale, std::size_t question, const Jo
                 scale.reversed[i] ? reversed_value(data.questions[scale.items[i]], mean.value) : mean.value);
         }
         if (answer.items.size() < scale.items.size()) {
-            uncounted.incomplete += !answer.items.empty();
+            incomplete += !answer.items.empty();
             continue;
         }
         answer.cell = mean.cell;
@@ -326,16 +330,19 @@ void add_scale(Dataset& data, const Scale& scale, std::size_t question, const Jo
         data.scores.push_back(mean);
         data.scale_answers.push_back(std::move(answer));
     }
+    return incomplete;
 }
 
-void add_scales(Dataset& data, const Joining& join, std::size_t scores_before, Uncounted& uncounted) {
+// How many answers lack some items of a scale.
+std::size_t add_scales(Dataset& data, const Joining& join, std::size_t scores_before) {
+    std::size_t incomplete = 0;
     const std::vector<Score> given(data.scores.begin() + static_cast<std::ptrdiff_t>(scores_before),
                                    data.scores.end());
-    for (std::size_t i = 0; i < join.key.scales.size(); ++i)
-        add_scale(data, join.key.scales[i], join.key.questions.size() + i, join, given, uncounted);
+    for (std::size_t i = 0; i < join.key.scales.size(); ++i) incomplete += add_scale(data, join, i, given);
+    return incomplete;
 }
 
-void join_one(Dataset& data, const Joining& join, std::size_t trial, Uncounted& uncounted) {
+void join_one(Dataset& data, const Joining& join, Uncounted& uncounted) {
     uncounted.left_out += count_left_out(join);
     const std::size_t scores_before = data.scores.size();
     Rater& rater = data.raters[join.participant];
@@ -346,12 +353,12 @@ void join_one(Dataset& data, const Joining& join, std::size_t trial, Uncounted& 
         if (!join.answer.values.contains(question.id)) continue;
         const Json value = to_places(join.answer.values[question.id], question, join.answer.order,
                                      join.key.layout == Layout::triplet);
-        add_row(data, join, q, trial, value);
+        add_row(data, join, q, value);
         if (join.page.kind != PageKind::trial || value.is_null()) continue;
         add_value(data, join, q, value);
         add_judged(data, join, q, value);
     }
-    add_scales(data, join, scores_before, uncounted);
+    uncounted.incomplete += add_scales(data, join, scores_before);
 }
 
 struct ParticipantSource {
@@ -384,8 +391,9 @@ void join_participant(Dataset& data, const ParticipantSource& of, Uncounted& unc
                            .page = page,
                            .pass = pass_of(of, answer),
                            .answer = answer,
-                           .participant = data.raters.size() - 1};
-        join_one(data, join, trial, uncounted);
+                           .participant = data.raters.size() - 1,
+                           .trial = trial};
+        join_one(data, join, uncounted);
         seconds.push_back(answer.seconds);
     }
     Rater& rater = data.raters.back();

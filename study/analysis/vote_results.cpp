@@ -80,12 +80,14 @@ bool is_made_of(const Dataset& data, std::size_t made, std::size_t original) {
     return data.conditions[made].from == original;
 }
 
-VotePair count_pair(const Dataset& data, const Preferences& preferences, std::size_t first,
-                    std::size_t second, const Resampling& resampling) {
-    VotePair pair{.first = first, .second = second};
-    // The original comes first, whatever the order of the key.
-    if (is_made_of(data, first, second)) std::swap(pair.first, pair.second);
-    pair.made_of_it = is_made_of(data, pair.second, pair.first);
+// The original comes first, whatever the order of the key.
+VotePair pair_of(const Dataset& data, std::size_t a, std::size_t b) {
+    if (is_made_of(data, a, b)) std::swap(a, b);
+    return {.first = a, .second = b, .made_of_it = is_made_of(data, b, a)};
+}
+
+// `pair` with its votes.
+VotePair counted(VotePair pair, const Preferences& preferences, const Resampling& resampling) {
     const Ballot ballot = ballot_of(preferences, {pair.first, pair.second});
     for (const Vote& vote : ballot.votes) {
         const int strength = vote.first == 0 ? vote.strength : -vote.strength;
@@ -184,7 +186,7 @@ VoteResult compute_question(const Dataset& data, std::size_t question, const Pre
     std::set<std::pair<std::size_t, std::size_t>> pairs;
     for (const Preference* each : preferences) pairs.insert({each->first, each->second});
     for (const auto& [first, second] : pairs)
-        result.pairs.push_back(count_pair(data, preferences, first, second, resampling));
+        result.pairs.push_back(counted(pair_of(data, first, second), preferences, resampling));
     adjust(result.pairs, [](VotePair& pair) -> VotePair& { return pair; });
     adjust(result.pairs, [](VotePair& pair) -> RaterVotes& { return pair.raters; });
     result.contrasts = contrast(result.pairs);

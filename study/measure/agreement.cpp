@@ -55,10 +55,16 @@ std::vector<Coincidence> coincidences_of(const Unit& unit, const std::vector<dou
     return found;
 }
 
+// The values that raters gave.
+struct Values {
+    std::vector<double> numbers;  // (V) ascending
+    ValueScale scale;
+};
+
 // (V, V) squared distances, which on an ordinal scale depend on how often each value was given.
-std::vector<double> distances_of(const std::vector<double>& values, const std::vector<double>& times,
-                                 ValueScale scale) {
-    const std::size_t n = values.size();
+std::vector<double> distances_of(const Values& values, const std::vector<double>& times) {
+    const auto& [numbers, scale] = values;
+    const std::size_t n = numbers.size();
     std::vector<double> distances(n * n, 0);
     for (std::size_t a = 0; a < n; ++a) {
         double between = times[a] / 2;
@@ -67,16 +73,16 @@ std::vector<double> distances_of(const std::vector<double>& values, const std::v
             between += times[b];
             const double distance = scale == ValueScale::nominal   ? 1
                                     : scale == ValueScale::ordinal ? ranks
-                                                                   : values[b] - values[a];
+                                                                   : numbers[b] - numbers[a];
             distances[a * n + b] = distances[b * n + a] = distance * distance;
         }
     }
     return distances;
 }
 
-std::optional<double> alpha_of(const std::vector<std::vector<Coincidence>>& units,
-                               const std::vector<double>& values, ValueScale scale) {
-    std::vector<double> times(values.size(), 0);
+std::optional<double> alpha_of(const std::vector<std::vector<Coincidence>>& units, const Values& values) {
+    const std::size_t n = values.numbers.size();
+    std::vector<double> times(n, 0);
     double all = 0;
     for (const auto& unit : units) {
         for (const Coincidence& pair : unit) {
@@ -84,15 +90,14 @@ std::optional<double> alpha_of(const std::vector<std::vector<Coincidence>>& unit
             all += pair.weight;
         }
     }
-    const std::vector<double> distances = distances_of(values, times, scale);
+    const std::vector<double> distances = distances_of(values, times);
     double observed = 0, expected = 0;
     for (const auto& unit : units) {
         for (const Coincidence& pair : unit)
-            observed += pair.weight * distances[pair.first * values.size() + pair.second];
+            observed += pair.weight * distances[pair.first * n + pair.second];
     }
-    for (std::size_t a = 0; a < values.size(); ++a) {
-        for (std::size_t b = 0; b < values.size(); ++b)
-            expected += times[a] * times[b] * distances[a * values.size() + b];
+    for (std::size_t a = 0; a < n; ++a) {
+        for (std::size_t b = 0; b < n; ++b) expected += times[a] * times[b] * distances[a * n + b];
     }
     if (!(expected > 0)) return std::nullopt;
     return 1 - (all - 1) * observed / expected;
@@ -105,8 +110,8 @@ std::vector<double> draw(std::size_t count, Random& random) {
     return times;
 }
 
-std::optional<Interval> resampled(const std::vector<Unit>& units, std::size_t raters,
-                                  const std::vector<double>& values, ValueScale scale, std::uint64_t seed) {
+std::optional<Interval> resampled(const std::vector<Unit>& units, std::size_t raters, const Values& values,
+                                  std::uint64_t seed) {
     if (units.size() < 2 || raters < kFewestRaters) return std::nullopt;
     std::vector<double> drawn;
     Random random(seed);
@@ -118,7 +123,7 @@ std::optional<Interval> resampled(const std::vector<Unit>& units, std::size_t ra
             chosen.push_back(coincidences_of(units[i], of_raters));
             for (Coincidence& pair : chosen.back()) pair.weight *= of_units[i];
         }
-        if (const auto alpha = alpha_of(chosen, values, scale)) drawn.push_back(*alpha);
+        if (const auto alpha = alpha_of(chosen, values)) drawn.push_back(*alpha);
     }
     if (drawn.empty()) return std::nullopt;
     std::sort(drawn.begin(), drawn.end());
@@ -188,10 +193,10 @@ std::optional<Alpha> krippendorff_alpha(std::span<const Rating> ratings, ValueSc
             raters.emplace(rating.rater, raters.size());
         }
     }
-    std::vector<double> values;
+    Values values{.scale = scale};
     for (auto& [value, place] : index) {
-        place = values.size();
-        values.push_back(value);
+        place = values.numbers.size();
+        values.numbers.push_back(value);
     }
     Alpha result{.units = of_unit.size()};
     std::vector<Unit> units;
@@ -204,10 +209,10 @@ std::optional<Alpha> krippendorff_alpha(std::span<const Rating> ratings, ValueSc
         all.push_back(coincidences_of(of_raters, once));
         result.ratings += given.size();
     }
-    const auto alpha = alpha_of(all, values, scale);
+    const auto alpha = alpha_of(all, values);
     if (!alpha) return std::nullopt;
     result.alpha = *alpha;
-    result.alpha_95 = resampled(units, raters.size(), values, scale, seed);
+    result.alpha_95 = resampled(units, raters.size(), values, seed);
     return result;
 }
 
