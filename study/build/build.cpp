@@ -210,8 +210,9 @@ void require_place_for(const StudyDraft& draft, const StudyFolder& study, const 
 }
 
 // Records what is missing of `videos`, which are all or some of the study's.
-Recordings record_missing(const StudyDraft& draft, const std::vector<Video>& videos, const StudyFolder& study,
+Recordings record_missing(const StudyDraft& draft, const std::vector<Video>& videos,
                           const BuildOptions& options, const ClipMaker& maker) {
+    const StudyFolder study{options.out};
     make_folder(study.work());
     unpack_recordings(study, videos);
     return record_videos(videos,
@@ -242,7 +243,7 @@ BuildSummary build_study(const Plan& plan, const BuildOptions& options, const Cl
     if (is_finished(study, draft)) return summary;
     require_place_for(draft, study, options);
     try {
-        const Recordings recordings = record_missing(draft, draft.videos, study, options, maker);
+        const Recordings recordings = record_missing(draft, draft.videos, options, maker);
         require_equal_lengths(draft, recordings.videos);
         summary.recorded = recordings.recorded;
         summary.warnings = list_warnings(draft, draft.videos, recordings.videos);
@@ -288,7 +289,7 @@ ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOption
     if (is_finished(study, draft)) return summary;
     require_place_for(draft, study, options);
     try {
-        const Recordings recordings = record_missing(draft, videos, study, options, maker);
+        const Recordings recordings = record_missing(draft, videos, options, maker);
         summary.recorded = recordings.recorded;
         summary.warnings = list_warnings(draft, videos, recordings.videos);
     } catch (const Error&) {

@@ -252,12 +252,13 @@ void cover_sounds(const Plan& plan, std::vector<double>& lengths) {
     }
 }
 
-// The motions of a video, which are not read twice.
-ClipMotions motions_of(const MotionsOfClips& known, const VideoWish& wish, const Sources& sources,
-                       const ClipJob& job, const ClipMaker& maker) {
-    if (wish.conditions.size() > 1 || sources.motion != wish.clip) return maker.motions(job);
+// The motions of a video, which are not read twice. `moved` is the clip that they are of.
+ClipMotions motions_of(const Video& video, std::size_t moved, const MotionsOfClips& known,
+                       const ClipMaker& maker) {
+    const VideoWish& wish = video.shows;
+    if (wish.conditions.size() > 1 || moved != wish.clip) return maker.motions(video.job);
     const auto found = known[wish.clip].find(wish.conditions.front());
-    return found == known[wish.clip].end() ? maker.motions(job) : found->second;
+    return found == known[wish.clip].end() ? maker.motions(video.job) : found->second;
 }
 
 // What each clip is mismatched with; itself where nothing is.
@@ -296,7 +297,7 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
         const Sources sources = sources_of(plan, wish, other);
         Video video{.shows = wish, .speech = sources.speech, .job = job_of(plan, wish, sources)};
         if (plan.render.travel == Travel::follow) follow_all_conditions(plan, other, wish, video.job);
-        require_faces_of_all_or_none(plan, wish, motions_of(motions, wish, sources, video.job, maker),
+        require_faces_of_all_or_none(plan, wish, motions_of(video, sources.motion, motions, maker),
                                      faces[wish.clip]);
         video.job.at_least = lengths[wish.clip];
         // A pose that is held, or speech that is missing at the end, would reveal the mismatched condition.

@@ -129,24 +129,30 @@ FrameRange checked_range(const ClipJob& job, std::size_t frames) {
     return {.first = job.frames.first, .last = last};
 }
 
-// Where and how strongly it shows who speaks.
-struct Cues {
-    std::vector<Vec2> places;                   // of the people [px]; empty: none are drawn
-    std::vector<std::vector<float>> strengths;  // of each at every frame of the clip
-};
+// How strongly each of the people is shown to speak, at every frame of the clip; nobody if no cue is drawn.
+using CueStrengths = std::vector<std::vector<float>>;
 
-Cues make_cues(const ClipJob& job, const Stage& stage, const std::vector<Performance>& people,
-               const std::vector<Audio>& voices, std::size_t frames) {
+CueStrengths strengths_of_cues(const ClipJob& job, const std::vector<Audio>& voices, std::size_t frames) {
     if (job.cue == SpeakingCue::none) return {};
     if (voices.empty()) {
         throw Error(
             "speaking cue: needs the voices of two people; give two motions and --audio twice, or no cue");
     }
-    Cues cues;
-    for (std::size_t i = 0; i < people.size(); ++i) {
+    CueStrengths strengths;
+    for (const Audio& voice : voices) strengths.push_back(cue_strengths(voice, job.fps, frames));
+    return strengths;
+}
+
+// Where and how strongly it shows who speaks.
+struct Cues {
+    std::vector<Vec2> places;  // of the people [px]
+    CueStrengths strengths;
+};
+
+Cues place_cues(CueStrengths strengths, const Stage& stage, const std::vector<Performance>& people) {
+    Cues cues{.strengths = std::move(strengths)};
+    for (std::size_t i = 0; i < cues.strengths.size(); ++i)
         cues.places.push_back(cue_place(stage, people, i));
-        cues.strengths.push_back(cue_strengths(voices[i], job.fps, frames));
-    }
     return cues;
 }
 
@@ -214,15 +220,12 @@ void describe(const Performance& performance, const std::string& blur, Json& mot
 }
 
 // `motions` says how each was shown.
-ClipResult result_of(const ClipJob& job, std::size_t frames, std::vector<std::string> warnings, Json motions,
-                     std::span<const CompanionFiles> companions) {
-    ClipResult result{
-        .frames = frames, .seconds = job.fps.seconds(frames), .warnings = std::move(warnings), .report = {}};
+ClipResult with_report(ClipResult result, Json motions, Json recipe) {
     result.report = {{"frames", result.frames},
                      {"seconds", result.seconds},
                      {"warnings", result.warnings},
                      {"motions", std::move(motions)},
-                     {"recipe", recipe_of(job, companions)}};
+                     {"recipe", std::move(recipe)}};
     return result;
 }
 
@@ -252,7 +255,9 @@ ClipResult record_film(const ClipJob& job) {
                                  {"detected", {"a film"}},
                                  {"modes", Json::array()},
                                  {"fit", Json()}}});
-    return result_of(job, frames, std::move(warnings), std::move(motions), std::vector<CompanionFiles>(1));
+    return with_report(
+        {.frames = frames, .seconds = job.fps.seconds(frames), .warnings = std::move(warnings), .report = {}},
+        std::move(motions), recipe_of(job, std::vector<CompanionFiles>(1)));
 }
 
 }  // namespace
@@ -279,8 +284,9 @@ ClipResult record_clip(const ClipJob& job) {
         warnings.insert(warnings.end(), more.begin(), more.end());
 
     const std::size_t frames = *range.last - range.first;
-    const Overlays overlays{.cues = make_cues(job, stage, people, track.voices, length.frames),
-                            .notice = make_notice(job, length.frames)};
+    const Overlays overlays{
+        .cues = place_cues(strengths_of_cues(job, track.voices, length.frames), stage, people),
+        .notice = make_notice(job, length.frames)};
     FrameSink sink(job, track.sound);
     Progress progress(job.out.filename().string(), "frames", frames, job.quiet);
     record_frames({.stage = stage, .people = people, .overlays = overlays}, range, sink, progress);
@@ -291,7 +297,9 @@ ClipResult record_clip(const ClipJob& job) {
         describe(people[i], stage.blurs[i], motions);
         companions.push_back(people[i].companions);
     }
-    return result_of(job, frames, std::move(warnings), std::move(motions), companions);
+    return with_report(
+        {.frames = frames, .seconds = job.fps.seconds(frames), .warnings = std::move(warnings), .report = {}},
+        std::move(motions), recipe_of(job, companions));
 }
 
 ClipMaker clip_maker() {
