@@ -57,12 +57,12 @@ Value meaning_of(const std::string& text, const std::map<std::string, Value>& wo
     return found->second;
 }
 
-// An option that takes one of a few words.
+// An option that takes one of a few words. Its help is what the caller gives as its description().
 template <typename Value>
 CLI::Option* add_choice(CLI::App& verb, const std::string& name, Value& value,
-                        const std::map<std::string, Value>& words, const std::string& help) {
+                        const std::map<std::string, Value>& words) {
     const auto read = [&value, words](const std::string& text) { value = meaning_of(text, words); };
-    return add_read_option(verb, name, read, help)->type_name(join(keys_of(words), "|"));
+    return add_read_option(verb, name, read, "")->type_name(join(keys_of(words), "|"));
 }
 
 inline CLI::Option* add_seed(CLI::App& verb, std::uint64_t& seed, const std::string& help) {

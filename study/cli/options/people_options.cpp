@@ -69,12 +69,13 @@ void add_motion_hints(CLI::App& verb, MotionHints& hints) {
     }
 }
 
-CLI::Option* PeopleOptions::add(CLI::App& verb, const std::string& names, Read read, const std::string& help,
-                                bool is_of_one) {
+CLI::Option* PeopleOptions::add(CLI::App& verb, const PersonOption& option) {
+    const std::string name = option.names.substr(option.names.find('-'));
     // A list does not move when it grows, so CLI11 may write into it.
-    Given& given = given_.emplace_back(Given{
-        .name = names.substr(names.find('-')), .read = std::move(read), .is_of_one = is_of_one, .texts = {}});
-    return verb.add_option(names, given.texts, help)->allow_extra_args(false);
+    Given& given = given_.emplace_back(Given{.name = name, .option = option, .texts = {}});
+    return verb.add_option(option.names, given.texts, option.help)
+        ->type_name(option.type)
+        ->allow_extra_args(false);
 }
 
 bool PeopleOptions::has(const std::string& name) const {
@@ -85,7 +86,7 @@ bool PeopleOptions::has(const std::string& name) const {
 std::vector<Performer> PeopleOptions::make() const {
     const Given* counted = &given_.front();
     for (const Given& given : given_) {
-        if (counted->texts.empty() && given.is_of_one) counted = &given;
+        if (counted->texts.empty() && given.option.is_of_one) counted = &given;
     }
     const std::size_t count = counted->texts.size();
     if (count > kMostPeople) {
@@ -100,16 +101,16 @@ std::vector<Performer> PeopleOptions::make() const {
 void PeopleOptions::distribute(const Given& given, const Given& counted, std::vector<Performer>& people) {
     const std::size_t count = given.texts.size();
     if (count == 0) return;
-    if (count != people.size() && (count != 1 || given.is_of_one)) {
+    if (count != people.size() && (count != 1 || given.option.is_of_one)) {
         throw CLI::ValidationError(
-            given.name,
-            format("is given {}, but {} {}; give it {}as often as {}", times(count), counted.name,
-                   people.size() == 1 ? "once" : "twice", given.is_of_one ? "" : "once or ", counted.name));
+            given.name, format("is given {}, but {} {}; give it {}as often as {}", times(count), counted.name,
+                               people.size() == 1 ? "once" : "twice",
+                               given.option.is_of_one ? "" : "once or ", counted.name));
     }
     for (std::size_t i = 0; i < people.size(); ++i) {
         people[i].hints.fps_where_missing |= given.name == "--motion-fps" && count < people.size();
         try {
-            given.read(people[i], given.texts[count == 1 ? 0 : i]);
+            given.option.read(people[i], given.texts[count == 1 ? 0 : i]);
         } catch (const Error& error) {
             throw CLI::ValidationError(given.name, error.what());
         }
@@ -122,60 +123,55 @@ void add_face(CLI::App& verb, std::optional<std::filesystem::path>& face, FaceOp
         verb, "--face-gain", [&options](const std::string& text) { options.gains = parse_face_gains(text); },
         kFaceGainHelp)
         ->type_name("AU=G,...");
-    add_choice<HeadTurn>(verb, "--face-head", options.head, kHeadTurns, kFaceHeadHelp);
+    add_choice<HeadTurn>(verb, "--face-head", options.head, kHeadTurns)->description(kFaceHeadHelp);
 }
 
 void add_faces(CLI::App& verb, PeopleOptions& people) {
-    people
-        .add(
-            verb, "--face", [](Performer& person, const std::string& text) { person.face = text; }, kFaceHelp,
-            true)
-        ->type_name("F");
-    people
-        .add(
-            verb, "--face-gain",
-            [](Performer& person, const std::string& text) {
-                person.face_options.gains = parse_face_gains(text);
-            },
-            kFaceGainHelp)
-        ->type_name("AU=G,...");
-    people
-        .add(
-            verb, "--face-head",
-            [](Performer& person, const std::string& text) {
-                person.face_options.head = meaning_of(text, kHeadTurns);
-            },
-            kFaceHeadHelp)
-        ->type_name("add|keep|replace");
+    people.add(verb, {.names = "--face",
+                      .type = "F",
+                      .help = kFaceHelp,
+                      .read = [](Performer& person, const std::string& text) { person.face = text; },
+                      .is_of_one = true});
+    people.add(verb, {.names = "--face-gain",
+                      .type = "AU=G,...",
+                      .help = kFaceGainHelp,
+                      .read = [](Performer& person, const std::string& text) {
+                          person.face_options.gains = parse_face_gains(text);
+                      }});
+    people.add(verb, {.names = "--face-head",
+                      .type = "add|keep|replace",
+                      .help = kFaceHeadHelp,
+                      .read = [](Performer& person, const std::string& text) {
+                          person.face_options.head = meaning_of(text, kHeadTurns);
+                      }});
 }
 
 void add_modes(CLI::App& verb, PeopleOptions& people) {
-    people
-        .add(
-            verb, "--face-mode",
-            [](Performer& person, const std::string& text) {
-                person.modes.face_mode = meaning_of(text, face_modes());
-            },
-            "au shows the face as driven, neutral at rest, the others hide it [au]")
-        ->type_name(join(keys_of(face_modes()), "|"));
-    people
-        .add(
-            verb, "--hands",
-            [](Performer& person, const std::string& text) {
-                person.modes.hands = meaning_of(text, hands_modes());
-            },
-            "relaxed holds the fingers still, hidden puts mitts over the hands [motion]")
-        ->type_name(join(keys_of(hands_modes()), "|"));
+    people.add(verb, {.names = "--face-mode",
+                      .type = join(keys_of(face_modes()), "|"),
+                      .help = "au shows the face as driven, neutral at rest, the others hide it [au]",
+                      .read = [](Performer& person, const std::string& text) {
+                          person.modes.face_mode = meaning_of(text, face_modes());
+                      }});
+    people.add(verb, {.names = "--hands",
+                      .type = join(keys_of(hands_modes()), "|"),
+                      .help = "relaxed holds the fingers still, hidden puts mitts over the hands [motion]",
+                      .read = [](Performer& person, const std::string& text) {
+                          person.modes.hands = meaning_of(text, hands_modes());
+                      }});
 }
 
 void add_anchors(CLI::App& verb, PeopleOptions& people) {
-    people
-        .add(
-            verb, "--anchor",
-            [](Performer& person, const std::string& text) { person.anchor = degradation_named(text); },
-            "Make the motion worse in a known way: frozen in its mean posture, mirrored, delayed against the "
-            "sound by milliseconds, damped towards its mean posture by a factor, jittered by degrees")
-        ->type_name("frozen|mirrored|delayed:MS|damped:X|jittered:DEG[:SEED]");
+    people.add(
+        verb,
+        {.names = "--anchor",
+         .type = "frozen|mirrored|delayed:MS|damped:X|jittered:DEG[:SEED]",
+         .help =
+             "Make the motion worse in a known way: frozen in its mean posture, mirrored, delayed against the "
+             "sound by milliseconds, damped towards its mean posture by a factor, jittered by degrees",
+         .read = [](Performer& person, const std::string& text) {
+             person.anchor = degradation_named(text);
+         }});
 }
 
 // One sound belongs to the clip; two are the voices of its two people.

@@ -31,15 +31,21 @@ void add_motion_hints(CLI::App& verb, MotionHints& hints);
 // The face of one person.
 void add_face(CLI::App& verb, std::optional<std::filesystem::path>& face, FaceOptions& options);
 
+// What one person is given, by an option of this name: "--face", or "motion,--motion" where no name need stand before
+// the value.
+struct PersonOption {
+    std::string names;
+    std::string type;
+    std::string help;
+    // may be called several times; its Error becomes a message about the option
+    std::function<void(Performer&, const std::string& text)> read;
+    bool is_of_one = false;  // it cannot hold for two people
+};
+
 // The people of a clip, from options that may be given once for all of them or once for each.
 class PeopleOptions {
   public:
-    using Read = std::function<void(Performer&, const std::string&)>;
-
-    // `names`: "--face", or "motion,--motion" where no name need stand before the value. `read` may be called several
-    // times; its Error becomes a message about the option. An option that `is_of_one` cannot hold for two people.
-    CLI::Option* add(CLI::App& verb, const std::string& names, Read read, const std::string& help,
-                     bool is_of_one = false);
+    CLI::Option* add(CLI::App& verb, const PersonOption& option);
 
     bool has(const std::string& name) const;
 
@@ -50,8 +56,7 @@ class PeopleOptions {
   private:
     struct Given {
         std::string name;
-        Read read;
-        bool is_of_one = false;
+        PersonOption option;
         std::vector<std::string> texts;
     };
 

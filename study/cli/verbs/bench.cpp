@@ -221,8 +221,8 @@ void add_bench(CLI::App& app, std::optional<Command>& result) {
     auto command = std::make_shared<BenchCommand>();
     CLI::App* verb = add_verb(app, "bench", "Measure the speed of the program on this machine",
                               "  $ chironomia bench\n  $ chironomia bench --json");
-    add_choice<RendererKind>(*verb, "--renderer", command->renderer, renderer_names(),
-                             "What draws the clips that are measured [auto: tiles]");
+    add_choice<RendererKind>(*verb, "--renderer", command->renderer, renderer_names())
+        ->description("What draws the clips that are measured [auto: tiles]");
     verb->add_flag("--json", command->json, "Print JSON");
     verb->callback([&result, command] { result = *command; });
 }

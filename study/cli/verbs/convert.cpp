@@ -35,14 +35,13 @@ void need_motion_or_face(const std::filesystem::path& motion,
 
 // Where the camera of a projection stands.
 void add_picture_camera(CLI::App& verb, std::optional<PictureCamera>& camera) {
-    const auto number = [&verb, &camera](const std::string& name, const std::string& type,
-                                         const std::string& help, const CLI::Range& range,
-                                         double PictureCamera::*value) {
+    const auto add_number = [&verb, &camera](const std::string& name, double PictureCamera::*value,
+                                             const std::string& help) {
         const auto set = [&camera, value](double given) {
             if (!camera) camera.emplace();
             (*camera).*value = given;
         };
-        verb.add_option_function<double>(name, set, help)->type_name(type)->check(range);
+        return verb.add_option_function<double>(name, set, help);
     };
     add_read_option(
         verb, "--camera",
@@ -61,11 +60,16 @@ void add_picture_camera(CLI::App& verb, std::optional<PictureCamera>& camera) {
         },
         "For OpenPose: pixels of the picture [1280x720]")
         ->type_name("WxH");
-    number("--focal", "PX", "For OpenPose: focal length [1280]", CLI::Range(1.0, 1e6), &PictureCamera::focal);
-    number("--distance", "M", "For OpenPose: from camera to person [4]", CLI::Range(0.1, 1000.0),
-           &PictureCamera::distance);
-    number("--yaw", "DEG", "For OpenPose: degrees from the front to the person's left [0]",
-           CLI::Range(-180.0, 180.0), &PictureCamera::yaw_deg);
+    add_number("--focal", &PictureCamera::focal, "For OpenPose: focal length [1280]")
+        ->type_name("PX")
+        ->check(CLI::Range(1.0, 1e6));
+    add_number("--distance", &PictureCamera::distance, "For OpenPose: from camera to person [4]")
+        ->type_name("M")
+        ->check(CLI::Range(0.1, 1000.0));
+    add_number("--yaw", &PictureCamera::yaw_deg,
+               "For OpenPose: degrees from the front to the person's left [0]")
+        ->type_name("DEG")
+        ->check(CLI::Range(-180.0, 180.0));
 }
 
 namespace fs = std::filesystem;
@@ -245,8 +249,8 @@ void add_convert(CLI::App& app, std::optional<Command>& result) {
     verb->add_flag(
         "--no-interpenetration", command->no_interpenetration,
         "Move hands and forearms of the avatar out of its body where the motion puts them into it, smoothly");
-    add_choice<bool>(*verb, "--bvh-names", command->mocapnet_names, {{"own", false}, {"mocapnet", true}},
-                     "Joint names in a BVH: as they are, or hip, lShldr, ... as MocapNET has them [own]");
+    add_choice<bool>(*verb, "--bvh-names", command->mocapnet_names, {{"own", false}, {"mocapnet", true}})
+        ->description("Joint names in a BVH: as they are, or hip, lShldr, ... as MocapNET has them [own]");
     add_picture_camera(*verb, command->camera);
     verb->add_option("--report", command->report, "Write how well the avatar follows the motion")
         ->type_name("F.json");

@@ -47,12 +47,12 @@ void add_corpus_make(CLI::App& corpus, std::optional<Command>& result) {
         "  $ chironomia corpus make --kind dyads --size mini --seed 7 --out dyads");
     add_choice<CorpusKind>(
         *verb, "--kind", order.kind,
-        {{"dyads", CorpusKind::dyads}, {"intervals", CorpusKind::intervals}, {"talks", CorpusKind::talks}},
-        "talks as TEDx, dyads as NoXi, or intervals as PATS has them")
+        {{"dyads", CorpusKind::dyads}, {"intervals", CorpusKind::intervals}, {"talks", CorpusKind::talks}})
+        ->description("talks as TEDx, dyads as NoXi, or intervals as PATS has them")
         ->required();
     add_choice<CorpusSize>(*verb, "--size", order.size,
-                           {{"ci", CorpusSize::ci}, {"full", CorpusSize::full}, {"mini", CorpusSize::mini}},
-                           "ci takes seconds, mini minutes, full hours [mini]");
+                           {{"ci", CorpusSize::ci}, {"full", CorpusSize::full}, {"mini", CorpusSize::mini}})
+        ->description("ci takes seconds, mini minutes, full hours [mini]");
     verb->add_option("--out", order.folder, "A new folder")->type_name("DIR")->required();
     add_seed(*verb, order.seed, "Random seed [1]");
     verb->add_flag_callback(

@@ -235,13 +235,13 @@ void add_metric_options(CLI::App& verb, EvaluationOptions& options) {
         ->check(CLI::Range(100, 1000000));
     add_seed(verb, options.resampling.seed, "Of the resamples [42]");
     add_choice<ActivationScale>(verb, "--activation-scale", options.activation,
-                                {{"raw", ActivationScale::raw}, {"normalised", ActivationScale::normalised}},
-                                "On which scale an action unit above 0.5 is active [raw]");
+                                {{"raw", ActivationScale::raw}, {"normalised", ActivationScale::normalised}})
+        ->description("On which scale an action unit above 0.5 is active [raw]");
     add_choice<LagSummary>(verb, "--lag-summary", options.lag_summary,
                            {{"signed", LagSummary::signed_most},
                             {"absolute", LagSummary::absolute_most},
-                            {"mean", LagSummary::mean}},
-                           "TLCC of all lags: the largest |r|, the mean r, or the largest r [signed]");
+                            {"mean", LagSummary::mean}})
+        ->description("TLCC of all lags: the largest |r|, the mean r, or the largest r [signed]");
 }
 
 // What is judged must be there, and a corpus for whatever works on its records.

@@ -47,8 +47,8 @@ void add_fit(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("--fps", job.fps, "Frames per second of the fit [the motion's own]")
         ->type_name("N")
         ->check(CLI::PositiveNumber);
-    add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
-                     "upper holds root and legs still [full]");
+    add_choice<bool>(*verb, "--body", job.upper_body, {{"full", false}, {"upper", true}})
+        ->description("upper holds root and legs still [full]");
     add_shard(
         *verb, [&job](const Shard& shard) { job.shard = shard; },
         "Only one part of the motions, such as 2/8: the second of eight [all]");

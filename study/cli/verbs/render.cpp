@@ -35,10 +35,10 @@ void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people,
 // How people move in the picture, and who of them speaks.
 void add_travel(CLI::App& verb, ClipJob& job) {
     add_choice<SpeakingCue>(verb, "--cue", job.cue,
-                            {{"none", SpeakingCue::none}, {"light", SpeakingCue::light}},
-                            "light draws a soft bar under the person who speaks [none]");
-    CLI::Option* body = add_choice<bool>(verb, "--body", job.upper_body, {{"full", false}, {"upper", true}},
-                                         "upper holds root and legs still [full]");
+                            {{"none", SpeakingCue::none}, {"light", SpeakingCue::light}})
+        ->description("light draws a soft bar under the person who speaks [none]");
+    CLI::Option* body = add_choice<bool>(verb, "--body", job.upper_body, {{"full", false}, {"upper", true}})
+                            ->description("upper holds root and legs still [full]");
     CLI::Option* follow = verb.add_flag_callback(
         "--follow", [&job] { job.travel = Travel::follow; },
         "The camera goes along with a person who walks, smoothly, and keeps them in the middle third");
@@ -142,19 +142,21 @@ struct RenderOptions {
 void add_people(CLI::App& verb, RenderOptions& options) {
     PeopleOptions& people = options.people;
     verb.option_defaults()->group(kOfMotions);
-    people
-        .add(
-            verb, "motion,--motion", [](Performer& person, const std::string& text) { person.motion = text; },
-            "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5. Given twice, it shows two people, "
-            "left and right. Each has options of reading it, --face, --audio and --avatar of their own [with --face "
-            "the body stands still; without, the file of --avatar, which may be any glTF, plays its own animation]")
-        ->type_name("M")
-        ->allow_extra_args();
+    CLI::Option* motion = people.add(
+        verb,
+        {.names = "motion,--motion",
+         .type = "M",
+         .help =
+             "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5. Given twice, it shows two people, "
+             "left and right. Each has options of reading it, --face, --audio and --avatar of their own [with --face "
+             "the body stands still; without, the file of --avatar, which may be any glTF, plays its own animation]",
+         .read = [](Performer& person, const std::string& text) { person.motion = text; }});
+    motion->allow_extra_args();
     for (const HintOption& option : hint_options()) {
         const auto read = [option](Performer& person, const std::string& text) {
             option.read(person.hints, text);
         };
-        people.add(verb, option.name, read, option.help)->type_name(option.type);
+        people.add(verb, {.names = option.name, .type = option.type, .help = option.help, .read = read});
     }
     add_faces(verb, people);
     add_modes(verb, people);
@@ -170,18 +172,20 @@ void add_sounds_and_avatars(CLI::App& verb, RenderOptions& options) {
                     "from their sides")
         ->allow_extra_args(false)
         ->type_name("WAV");
-    options.people
-        .add(
-            verb, "--avatar", [](Performer& person, const std::string& text) { person.avatar = text; },
-            "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [neutral]")
-        ->type_name("A");
-    options.people
-        .add(
-            verb, "--animation", [](Performer& person, const std::string& text) { person.animation = text; },
-            "Without --motion and --face: which of its animations the avatar's file plays, by name or by "
-            "number from 0 as info lists them [the first]; a file without any is shown still, for 1 s in "
-            "a clip, in one picture of a stack")
-        ->type_name("NAME|N");
+    options.people.add(
+        verb, {.names = "--avatar",
+               .type = "A",
+               .help = "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [neutral]",
+               .read = [](Performer& person, const std::string& text) { person.avatar = text; }});
+    options.people.add(
+        verb,
+        {.names = "--animation",
+         .type = "NAME|N",
+         .help =
+             "Without --motion and --face: which of its animations the avatar's file plays, by name or by "
+             "number from 0 as info lists them [the first]; a file without any is shown still, for 1 s in "
+             "a clip, in one picture of a stack",
+         .read = [](Performer& person, const std::string& text) { person.animation = text; }});
 }
 
 void add_picture(CLI::App& verb, ClipJob& job) {
@@ -203,10 +207,10 @@ void add_picture(CLI::App& verb, ClipJob& job) {
 }
 
 void add_drawing(CLI::App& verb, ClipJob& job) {
-    add_choice<RendererKind>(
-        verb, "--renderer", job.drawing.renderer, renderer_names(),
-        "tiles: on the processor; gl, also called raster: by OpenGL, on a GPU with --gl egl; rays: slower, with "
-        "soft light and real shadows [auto: tiles, or gl with --gl]");
+    add_choice<RendererKind>(verb, "--renderer", job.drawing.renderer, renderer_names())
+        ->description(
+            "tiles: on the processor; gl, also called raster: by OpenGL, on a GPU with --gl egl; rays: slower, with "
+            "soft light and real shadows [auto: tiles, or gl with --gl]");
     verb.add_option("--samples", job.drawing.samples, "With rays: samples a pixel, 1 to 1024 [16]")
         ->type_name("N")
         ->check(CLI::Range(1, kMostRaySamples));
@@ -214,9 +218,9 @@ void add_drawing(CLI::App& verb, ClipJob& job) {
                     "With rays: share of a frame that the shutter is open, 0 to 1 [0]")
         ->type_name("S")
         ->check(CLI::Range(0.0, 1.0));
-    add_choice<GlBackend>(
-        verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
-        "Which OpenGL draws; the same bytes without a GPU [osmesa, or egl where Mesa has no OSMesa]");
+    add_choice<GlBackend>(verb, "--gl", job.gl, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}})
+        ->description(
+            "Which OpenGL draws; the same bytes without a GPU [osmesa, or egl where Mesa has no OSMesa]");
     verb.add_option("--threads", job.threads, "Threads that draw and write; 0: all cores [0]")
         ->type_name("N")
         ->check(CLI::Range(0, 256));

@@ -24,8 +24,8 @@ void add_study_export(CLI::App& study, std::optional<Command>& result) {
                             {"hemvip2", ExportForm::hemvip2},
                             {"jspsych", ExportForm::jspsych},
                             {"qualtrics", ExportForm::qualtrics},
-                            {"webmushra", ExportForm::webmushra}},
-                           "The other program")
+                            {"webmushra", ExportForm::webmushra}})
+        ->description("The other program")
         ->required();
     verb->add_option("--out", options.out, "A new folder: public/ for the web, private/ for you")
         ->type_name("DIR2")

@@ -95,8 +95,8 @@ void add_manner(CLI::App& verb, SynthesisJob& job) {
 // What the paper leaves open; synth/README.md has the numbers of its ambiguities.
 void add_variants(CLI::App& verb, Variants& variants) {
     add_choice<SpatialMatrix>(verb, "--spatial-reading", variants.spatial_matrix,
-                              {{"scale", SpatialMatrix::scale}, {"translate", SpatialMatrix::translate}},
-                              "The spatial extent scales the space of gestures, or shifts it [scale]")
+                              {{"scale", SpatialMatrix::scale}, {"translate", SpatialMatrix::translate}})
+        ->description("The spatial extent scales the space of gestures, or shifts it [scale]")
         ->group(kReadings);
     verb.add_option("--fitts-intercept", variants.fitts_intercept,
                     "Intercept of Fitts's law, the least time of a movement [0.09]")
@@ -104,12 +104,12 @@ void add_variants(CLI::App& verb, Variants& variants) {
         ->check(CLI::Range(0.0, 1.0))
         ->group(kReadings);
     add_choice<TemporalSign>(verb, "--tempo-reading", variants.temporal_sign,
-                             {{"fast", TemporalSign::fast}, {"printed", TemporalSign::printed}},
-                             "A positive temporal extent is quicker, or slower as printed [fast]")
+                             {{"fast", TemporalSign::fast}, {"printed", TemporalSign::printed}})
+        ->description("A positive temporal extent is quicker, or slower as printed [fast]")
         ->group(kReadings);
     add_choice<TemporalScope>(verb, "--tempo-scope", variants.temporal_scope,
-                              {{"all", TemporalScope::all}, {"stroke", TemporalScope::stroke}},
-                              "It acts on all of a gesture, or on the stroke alone [all]")
+                              {{"all", TemporalScope::all}, {"stroke", TemporalScope::stroke}})
+        ->description("It acts on all of a gesture, or on the stroke alone [all]")
         ->group(kReadings);
     verb.add_option("--retraction-pause", variants.retraction_threshold,
                     "Pause below which the arms stay up, at fluidity 0 [1.0]")
@@ -117,9 +117,10 @@ void add_variants(CLI::App& verb, Variants& variants) {
         ->check(CLI::Range(0.0, 10.0))
         ->group(kReadings);
     add_choice<FluidityMap>(verb, "--fluidity-reading", variants.fluidity_map,
-                            {{"monotone", FluidityMap::monotone}, {"printed", FluidityMap::printed}},
-                            "Fluidity is the spline's continuity below 0 and smooths above it, or is the "
-                            "continuity throughout as printed [monotone]")
+                            {{"monotone", FluidityMap::monotone}, {"printed", FluidityMap::printed}})
+        ->description(
+            "Fluidity is the spline's continuity below 0 and smooths above it, or is the "
+            "continuity throughout as printed [monotone]")
         ->group(kReadings);
     verb.add_option("--fist-gain", variants.fist_gain, "How far power 1 closes the hand to a fist [0.7]")
         ->type_name("X")
