@@ -57,6 +57,7 @@ Json describe_body(const PointPaths& paths, const BodyPaths& body, const std::ve
 
 // A face as columns: units by number, then what it has of head and gaze, in OpenFace's terms.
 struct FaceColumns {
+    std::string source;
     std::vector<std::string> names;
     std::vector<std::vector<float>> series;  // by column, (T)
 };
@@ -69,7 +70,7 @@ std::vector<int> units_of(const FaceTrack& face) {
 
 FaceColumns columns_of(const Motion& motion) {
     const FaceTrack& face = *motion.face;
-    FaceColumns columns;
+    FaceColumns columns{.source = motion.source};
     const std::vector<int> units = units_of(face);
     const std::vector<float> rows = intensities_of(face, motion.frames, units);
     for (std::size_t u = 0; u < units.size(); ++u) {
@@ -148,14 +149,13 @@ Json compare_series(const std::string& name, std::span<const float> truth, std::
 }
 
 // What a face has and the other lacks is compared with nothing.
-void note_missing(const FaceColumns& face, const std::string& source, const FaceColumns& other,
-                  const std::string& other_source, std::vector<std::string>& notes) {
+void note_missing(const FaceColumns& face, const FaceColumns& other, std::vector<std::string>& notes) {
     std::vector<std::string> missing;
     for (const std::string& name : face.names)
         if (std::ranges::find(other.names, name) == other.names.end()) missing.push_back(name);
     if (!missing.empty())
         notes.push_back(
-            format("{}: has {}, which {} lacks; not compared", source, join(missing), other_source));
+            format("{}: has {}, which {} lacks; not compared", face.source, join(missing), other.source));
 }
 
 // Minkowski's and Frechet's distances and content preservation take the frames in which both have all points that they
@@ -282,8 +282,8 @@ void measure_against(const Motion& motion, const Motion& reference, MotionMeasur
     const auto [ours, truth] = aligned(motion, reference, measures.notes);
     if (ours.face && truth.face) {
         const FaceColumns a = columns_of(truth), b = columns_of(ours);
-        note_missing(b, motion.source, a, reference.source, measures.notes);
-        note_missing(a, reference.source, b, motion.source, measures.notes);
+        note_missing(b, a, measures.notes);
+        note_missing(a, b, measures.notes);
         for (std::size_t c = 0; c < b.names.size(); ++c) {
             const auto found = std::find(a.names.begin(), a.names.end(), b.names[c]);
             if (found == a.names.end()) continue;

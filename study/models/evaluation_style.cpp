@@ -20,37 +20,37 @@ bool is_transfer(const PredictedItem& item) {
     return !item.style.empty() && item.style != item.speaker;
 }
 
-// The points of a body, without the face, by their columns "<point> x" and "<point> y".
-struct BodyColumns {
-    std::vector<std::pair<std::size_t, std::size_t>> points;
-    std::vector<std::size_t> wrists;  // of the points
+// What is predicted, with the points of a body, without the face, by their columns "<point> x" and "<point> y".
+struct PredictedBodies {
+    const Predictions& predictions;
+    std::vector<std::pair<std::size_t, std::size_t>> points{};
+    std::vector<std::size_t> wrists{};  // of the points
 };
 
-BodyColumns body_columns(const Predictions& predictions) {
-    BodyColumns columns;
+PredictedBodies bodies_of(const Predictions& predictions) {
+    PredictedBodies bodies{.predictions = predictions};
     const auto& names = predictions.features;
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (!names[i].ends_with(" x") || names[i].starts_with("Face")) continue;
         const std::string point = names[i].substr(0, names[i].size() - 2);
         const auto y = std::ranges::find(names, point + " y");
         if (y == names.end()) continue;
-        if (point.ends_with("Wrist")) columns.wrists.push_back(columns.points.size());
-        columns.points.emplace_back(i, static_cast<std::size_t>(y - names.begin()));
+        if (point.ends_with("Wrist")) bodies.wrists.push_back(bodies.points.size());
+        bodies.points.emplace_back(i, static_cast<std::size_t>(y - names.begin()));
     }
-    return columns;
+    return bodies;
 }
 
-PointPaths paths_of_item(const Predictions& predictions, const BodyColumns& columns,
-                         const PredictedItem& item, StyleRows rows) {
-    PointPaths paths{.fps = predictions.fps, .joints = columns.points.size()};
+PointPaths paths_of_item(const PredictedBodies& bodies, const PredictedItem& item, StyleRows rows) {
+    const Predictions& predictions = bodies.predictions;
+    PointPaths paths{.fps = predictions.fps, .joints = bodies.points.size()};
     const std::size_t width = predictions.features.size();
     const auto restored = [&](std::size_t frame, std::size_t column) {
         const auto [low, high] = predictions.scale[column];
         return static_cast<float>(low + (high - low) * (item.*rows)[frame * width + column]);
     };
     for (std::size_t t = 0; t < item.truth.size() / width; ++t)
-        for (const auto& [x, y] : columns.points)
-            paths.points.emplace_back(restored(t, x), restored(t, y), 0);
+        for (const auto& [x, y] : bodies.points) paths.points.emplace_back(restored(t, x), restored(t, y), 0);
     return paths;
 }
 
@@ -78,14 +78,14 @@ struct TargetStyle {
     }
 };
 
-std::map<std::string, TargetStyle> targets_of(const Predictions& predictions, const BodyColumns& columns) {
+std::map<std::string, TargetStyle> targets_of(const PredictedBodies& bodies) {
     std::map<std::string, TargetStyle> targets;
-    for (const PredictedItem& item : predictions.items) {
+    for (const PredictedItem& item : bodies.predictions.items) {
         if (is_transfer(item)) continue;
         TargetStyle& target = targets[item.speaker];
         target.clips.push_back(&item);
         const StyleMetrics metrics =
-            style_metrics(paths_of_item(predictions, columns, item, &PredictedItem::truth), columns.wrists);
+            style_metrics(paths_of_item(bodies, item, &PredictedItem::truth), bodies.wrists);
         for (std::size_t m = 0; m < metrics.size(); ++m)
             if (metrics[m]) target.metrics[m].push_back(*metrics[m]);
     }
@@ -117,41 +117,43 @@ struct ClipNumbers {
     std::vector<ClipStyles> styles;
     std::vector<std::optional<double>> content, centred, to_source, to_target;
     std::vector<TimedClip> timed;
+
+    void add(const PredictedBodies& bodies, const PredictedItem& item, const TargetStyle& target);
 };
 
-void add_clip(const Predictions& predictions, const BodyColumns& columns, const PredictedItem& item,
-              const TargetStyle& target, ClipNumbers& numbers) {
+void ClipNumbers::add(const PredictedBodies& bodies, const PredictedItem& item, const TargetStyle& target) {
+    const Predictions& predictions = bodies.predictions;
     const std::size_t width = predictions.features.size();
-    const PointPaths source = paths_of_item(predictions, columns, item, &PredictedItem::truth);
-    const PointPaths made = paths_of_item(predictions, columns, item, &PredictedItem::prediction);
-    numbers.styles.push_back({.source = style_metrics(source, columns.wrists),
-                              .target = target.means(),
-                              .model = style_metrics(made, columns.wrists)});
-    numbers.timed.push_back(
-        {.made = wrist_speeds(made, columns.wrists), .source = wrist_speeds(source, columns.wrists)});
-    numbers.content.push_back(content_preservation(item.truth, item.prediction));
-    numbers.centred.push_back(content_preservation(item.truth, item.prediction, Centring::centred));
+    const PointPaths source = paths_of_item(bodies, item, &PredictedItem::truth);
+    const PointPaths made = paths_of_item(bodies, item, &PredictedItem::prediction);
+    styles.push_back({.source = style_metrics(source, bodies.wrists),
+                      .target = target.means(),
+                      .model = style_metrics(made, bodies.wrists)});
+    timed.push_back(
+        {.made = wrist_speeds(made, bodies.wrists), .source = wrist_speeds(source, bodies.wrists)});
+    content.push_back(content_preservation(item.truth, item.prediction));
+    centred.push_back(content_preservation(item.truth, item.prediction, Centring::centred));
     const std::vector<float> prediction = restored_item(predictions, item, &PredictedItem::prediction);
-    numbers.to_source.push_back(
+    to_source.push_back(
         minkowski_distance(restored_item(predictions, item, &PredictedItem::truth), prediction, width));
     // One of the target's clips, another for each clip.
-    const PredictedItem& reference = *target.clips[numbers.styles.size() % target.clips.size()];
+    const PredictedItem& reference = *target.clips[styles.size() % target.clips.size()];
     const std::vector<float> theirs = restored_item(predictions, reference, &PredictedItem::truth);
     const std::size_t shared = std::min(theirs.size(), prediction.size());
-    numbers.to_target.push_back(
+    to_target.push_back(
         minkowski_distance(std::span(theirs).first(shared), std::span(prediction).first(shared), width));
 }
 
 }  // namespace
 
 std::optional<PoseScores> score_poses(const Predictions& own, const Resampling& resampling) {
-    const BodyColumns columns = body_columns(own);
-    if (columns.points.empty()) return std::nullopt;
+    const PredictedBodies bodies = bodies_of(own);
+    if (bodies.points.empty()) return std::nullopt;
     std::vector<std::optional<double>> l1, velocity_l1, pck_01, pck_02;
     Vectors people, model;
     for (const PredictedItem& item : own.items) {
-        const PointPaths truth = paths_of_item(own, columns, item, &PredictedItem::truth);
-        const PointPaths made = paths_of_item(own, columns, item, &PredictedItem::prediction);
+        const PointPaths truth = paths_of_item(bodies, item, &PredictedItem::truth);
+        const PointPaths made = paths_of_item(bodies, item, &PredictedItem::prediction);
         const PoseErrors errors = pose_errors(truth, made);
         l1.push_back(errors.l1);
         velocity_l1.push_back(errors.velocity_l1);
@@ -180,14 +182,13 @@ Predictions own_styles(const Predictions& predictions) {
 }
 
 std::optional<StyleScores> score_styles(const Predictions& predictions, const Resampling& resampling) {
-    const BodyColumns columns = body_columns(predictions);
-    if (columns.points.empty()) return std::nullopt;
-    const std::map<std::string, TargetStyle> targets = targets_of(predictions, columns);
+    const PredictedBodies bodies = bodies_of(predictions);
+    if (bodies.points.empty()) return std::nullopt;
+    const std::map<std::string, TargetStyle> targets = targets_of(bodies);
     ClipNumbers numbers;
     for (const PredictedItem& item : predictions.items) {
         const auto target = targets.find(item.style);
-        if (is_transfer(item) && target != targets.end())
-            add_clip(predictions, columns, item, target->second, numbers);
+        if (is_transfer(item) && target != targets.end()) numbers.add(bodies, item, target->second);
     }
     if (numbers.styles.empty()) return std::nullopt;
     return StyleScores{.clips = numbers.styles.size(),

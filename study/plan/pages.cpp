@@ -99,17 +99,18 @@ void read_passes(const JsonValue& value, Plan& plan) {
     }
 }
 
+// What the checks say must be written in a language that the program does not know.
+void require_instruction(const JsonValue& checks, std::string_view key, const Plan& plan) {
+    if (checks.find(key) || is_bundled(plan.texts.language)) return;
+    checks.refuse(format("has no \"{}\", which the program can say in {} alone; write it in \"{}\"", key,
+                         join(bundled_languages(), " and "), plan.texts.language));
+}
+
 // What a check says, with the answer in the place of {answer}.
 std::string read_instruction(const JsonValue& checks, std::string_view key, const std::string& otherwise,
-                             bool is_needed, const Plan& plan) {
+                             const Plan& plan) {
     const auto value = checks.find(key);
-    if (!value) {
-        if (is_needed && !is_bundled(plan.texts.language)) {
-            checks.refuse(format("has no \"{}\", which the program can say in {} alone; write it in \"{}\"",
-                                 key, join(bundled_languages(), " and "), plan.texts.language));
-        }
-        return otherwise;
-    }
+    if (!value) return otherwise;
     const std::string text = read_public_text(*value, plan);
     if (text.find("{answer}") == std::string::npos)
         value->refuse(
@@ -153,12 +154,12 @@ void read_checks(const JsonValue& value, Plan& plan) {
             "no question has an answer that a check can ask for; ask a preference, a rating, a slider or a "
             "choice of options");
     }
-    const bool is_shown = plan.checks.count > 0;
-    plan.checks.instruction = read_instruction(value, "instruction", default_instruction(plan.texts.language),
-                                               is_shown && !asked->of_video, plan);
-    plan.checks.instruction_of_video =
-        read_instruction(value, "instruction_of_video", default_instruction_of_video(plan.texts.language),
-                         is_shown && asked->of_video, plan);
+    if (plan.checks.count > 0)
+        require_instruction(value, asked->of_video ? "instruction_of_video" : "instruction", plan);
+    plan.checks.instruction =
+        read_instruction(value, "instruction", default_instruction(plan.texts.language), plan);
+    plan.checks.instruction_of_video = read_instruction(
+        value, "instruction_of_video", default_instruction_of_video(plan.texts.language), plan);
 }
 
 void read_exclusion_rules(const JsonValue& value, Plan& plan) {

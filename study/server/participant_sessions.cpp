@@ -150,8 +150,9 @@ Reply ParticipantSessions::answer(AnswerStore& store, const Json& body, std::int
     if (!body.contains("answer")) return refusal(400, "answer: it is missing");
     store.note_sign_of_life(participant->id, now);
     const auto number = body["number"].get<std::size_t>();
-    return store_answer(store, *participant, number, with_own_tokens(*participant, number, body["answer"]),
-                        now);
+    return store_answer(
+        store, *participant,
+        {.number = number, .entry = with_own_tokens(*participant, number, body["answer"]), .received = now});
 }
 
 Json ParticipantSessions::tokens_of_showings(const Participant& participant, std::size_t number) const {
@@ -179,7 +180,8 @@ Json ParticipantSessions::with_own_tokens(const Participant& participant, std::s
 }
 
 Reply ParticipantSessions::store_answer(AnswerStore& store, const Participant& participant,
-                                        std::size_t number, const Json& entry, std::int64_t now) const {
+                                        const SentAnswer& sent) const {
+    const auto& [number, entry, received] = sent;
     const std::vector<Step>& steps = study_.sheets[participant.sheet];
     const std::size_t stored = store.count_answers(participant.id);
     if (number > stored || number >= steps.size()) {
@@ -197,7 +199,8 @@ Reply ParticipantSessions::store_answer(AnswerStore& store, const Participant& p
         }
         return {.status = 200, .body = {{"stored", stored}}};
     }
-    store.add(StoredAnswer{.participant = participant.id, .number = number, .entry = text, .received = now});
+    store.add(
+        StoredAnswer{.participant = participant.id, .number = number, .entry = text, .received = received});
     return {.status = 200, .body = {{"stored", stored + 1}}};
 }
 

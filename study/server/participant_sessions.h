@@ -50,11 +50,17 @@ class ParticipantSessions {
     Withdrawal withdraw(AnswerStore& store, const Json& body) const;
 
   private:
+    // An answer as the page sent it.
+    struct SentAnswer {
+        std::size_t number = 0;  // of the participant's answers
+        Json entry;
+        std::int64_t received = 0;  // ms since 1970
+    };
+
     std::vector<PageAnswer> answers_of(AnswerStore& store, const Participant& participant) const;
     Json tokens_of_showings(const Participant& participant, std::size_t number) const;
     Json with_own_tokens(const Participant& participant, std::size_t number, Json entry) const;
-    Reply store_answer(AnswerStore& store, const Participant& participant, std::size_t number,
-                       const Json& entry, std::int64_t now) const;
+    Reply store_answer(AnswerStore& store, const Participant& participant, const SentAnswer& sent) const;
     Json stored_json(AnswerStore& store, const Participant& participant) const;
     Json completion_of(const Participant& participant) const;
 
