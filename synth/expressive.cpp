@@ -79,14 +79,16 @@ std::size_t frames_of(const Speech& speech, double fps) {
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(speech.audio.duration() * fps)));
 }
 
+GestureStyle style_of(const ExpressiveOptions& options, const Speaker& speaker) {
+    return {.lexicon = options.lexicon, .speaker = speaker, .variants = options.variants};
+}
+
 // Moves the arms, and joins all that moves into one motion.
 Performed put_together(const Speech& speech, const ExpressiveOptions& options, Behaviours behaviours,
                        const IdleBody& body) {
     const std::size_t frames = body.hips.size();
-    ArmMotion arms =
-        move_arms(behaviours.gestures,
-                  {.lexicon = options.lexicon, .speaker = options.speaker, .variants = options.variants},
-                  {.frames = frames, .fps = options.fps}, options.seed);
+    ArmMotion arms = move_arms(behaviours.gestures, style_of(options, options.speaker),
+                               {.frames = frames, .fps = options.fps}, options.seed);
     Motion motion{.source = "expressive engine",
                   .fps = options.fps,
                   .frames = frames,
@@ -106,8 +108,7 @@ Performed put_together(const Speech& speech, const ExpressiveOptions& options, B
 
 Performed perform(const Speech& speech, const ExpressiveOptions& options) {
     const std::size_t frames = frames_of(speech, options.fps);
-    Behaviours behaviours =
-        plan_behaviours(speech, options.lexicon, options.speaker, options.variants, options.seed);
+    Behaviours behaviours = plan_behaviours(speech, style_of(options, options.speaker), options.seed);
     const IdleBody body = animate_idle_body({.behaviours = behaviours,
                                              .speech = speech,
                                              .speaker = options.speaker,
@@ -122,11 +123,11 @@ std::array<Performed, 2> perform_dialog(const ExpressiveDialog& dialog, const Ex
     for (std::size_t i = 0; i < 2; ++i) {
         const ExpressiveDialog::Person& person = dialog.people[i];
         assert(frames_of(person.speech, options.fps) == frames);
-        people[i] = {.speech = person.speech,
-                     .behaviours = plan_behaviours(person.speech, options.lexicon, person.speaker,
-                                                   options.variants, options.seed + i),
-                     .speaker = person.speaker,
-                     .partner = person.partner};
+        people[i] = {
+            .speech = person.speech,
+            .behaviours = plan_behaviours(person.speech, style_of(options, person.speaker), options.seed + i),
+            .speaker = person.speaker,
+            .partner = person.partner};
     }
     const std::array<IdleBody, 2> bodies =
         animate_dialog(people, dialog.coupling, {.frames = frames, .fps = options.fps}, options.seed);

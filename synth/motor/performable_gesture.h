@@ -9,8 +9,7 @@
 #include "core/manner.h"
 #include "synth/gestures/gesture.h"
 #include "synth/motor/arm_state.h"
-#include "synth/planner/variants.h"
-#include "synth/speakers/speaker.h"
+#include "synth/planner/gesture_style.h"
 
 namespace chironomia {
 
@@ -20,13 +19,6 @@ struct PerformablePose {
     Speed speed = Speed::normal;
     WristPath path;
     std::array<std::optional<ArmState>, 2> arms;  // left, right
-};
-
-// What gestures are performed from, and by whom.
-struct GestureStyle {
-    const Lexicon& lexicon;
-    const Speaker& speaker;
-    const Variants& variants;
 };
 
 struct PerformableGesture {

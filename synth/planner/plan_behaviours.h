@@ -4,10 +4,8 @@
 #include <cstdint>
 
 #include "core/speech.h"
-#include "synth/gestures/gesture.h"
 #include "synth/planner/behaviour.h"
-#include "synth/planner/variants.h"
-#include "synth/speakers/speaker.h"
+#include "synth/planner/gesture_style.h"
 
 namespace chironomia {
 
@@ -28,7 +26,6 @@ namespace chironomia {
 //   with the power, 1 - 0.5 pwr; the gains of the speaker's brows and nods are left to presence.
 // Throws Error if a gesture is asked for by a name that the lexicon does not have, without saying what it
 // shows.
-Behaviours plan_behaviours(const Speech& speech, const Lexicon& lexicon, const Speaker& speaker,
-                           const Variants& variants, std::uint64_t seed);
+Behaviours plan_behaviours(const Speech& speech, const GestureStyle& style, std::uint64_t seed);
 
 }  // namespace chironomia

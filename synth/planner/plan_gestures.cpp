@@ -139,7 +139,7 @@ struct Choice {
 
 class GesturePlanner {
   public:
-    explicit GesturePlanner(const GesturePlan& plan) : plan_(plan), repertoire_(plan.lexicon) {}
+    explicit GesturePlanner(const GesturePlan& plan) : plan_(plan), repertoire_(plan.style.lexicon) {}
 
     PlannedGestures plan() {
         PlannedGestures planned;
@@ -175,7 +175,7 @@ class GesturePlanner {
         if (choice.order.empty()) return std::nullopt;
         if (!(mark.weight > 1 - act.manner[Expressivity::overall_activation])) return std::nullopt;
         Random random(plan_.seed, act.mark);
-        choice.left_hand = random.uniform() < (1 - plan_.speaker.handedness) / 2;
+        choice.left_hand = random.uniform() < (1 - plan_.style.speaker.handedness) / 2;
         random.shuffle(choice.order);
         // One beat is not enough for all that beats show.
         if (is_shown_by_beats(mark.kind) && choice.order.size() == 1) {
@@ -236,7 +236,7 @@ class GesturePlanner {
 
     // On which a stroke may be repeated: those up to the lookahead of the greatest repetition, 1.
     void add_accents(PlannedGesture& planned) const {
-        const double horizon = planned.rheme_start + 2 * plan_.variants.repetition_lookahead *
+        const double horizon = planned.rheme_start + 2 * plan_.style.variants.repetition_lookahead *
                                                          (planned.rheme_end - planned.rheme_start);
         const std::vector<Accent>& all = plan_.accents.all();
         auto accent = std::partition_point(all.begin(), all.end(),

@@ -5,12 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "synth/gestures/gesture.h"
 #include "synth/markup/marked_text.h"
 #include "synth/planner/behaviour.h"
+#include "synth/planner/gesture_style.h"
 #include "synth/planner/planned_act.h"
-#include "synth/planner/variants.h"
-#include "synth/speakers/speaker.h"
 
 namespace chironomia {
 
@@ -18,9 +16,7 @@ struct GesturePlan {
     const Speech& speech;
     const Accents& accents;
     std::span<const PlannedAct> acts;
-    const Lexicon& lexicon;
-    const Speaker& speaker;
-    const Variants& variants;
+    const GestureStyle& style;
     std::uint64_t seed = 0;
 };
 

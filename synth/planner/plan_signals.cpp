@@ -145,13 +145,15 @@ class SignalPlanner {
         return Random(plan_.seed, (static_cast<std::uint64_t>(index) << 2) | stream);
     }
 
-    void add(SignalKind kind, double peak, double amount, const Manner& manner, double threshold) {
-        const Course course = course_of(kind);
-        Signal signal{.kind = kind, .peak = std::max(0.0, peak)};
+    // `signal` has its kind, its peak and its amount; the rest follows from them and from the manner.
+    void add(Signal signal, const Manner& manner, double threshold) {
+        const Course course = course_of(signal.kind);
+        signal.peak = std::max(0.0, signal.peak);
         signal.start = std::max(0.0, signal.peak - course.attack * (1 - 0.5 * manner[Expressivity::power]));
         signal.hold = signal.peak + course.hold;
         signal.end = signal.hold + course.decay;
-        signal.amount = std::clamp(amount * (1 + 0.5 * manner[Expressivity::spatial_extent]), 0.05, 2.0);
+        signal.amount =
+            std::clamp(signal.amount * (1 + 0.5 * manner[Expressivity::spatial_extent]), 0.05, 2.0);
         candidates_.push_back({signal, threshold});
     }
 
@@ -164,7 +166,8 @@ class SignalPlanner {
         const double threshold = threshold_of(act, mark.weight);
         for (const Shown& shown : kShown)
             if (shown.kind == mark.kind && shown.value == mark.value)
-                add(shown.signal, act.moment, shown.amount, act.manner, threshold);
+                add({.kind = shown.signal, .peak = act.moment, .amount = shown.amount}, act.manner,
+                    threshold);
         add_gaze(act, mark);
     }
 
@@ -174,16 +177,18 @@ class SignalPlanner {
         const double drawn = random.uniform();
         const double begin = time_of({mark.first_word, 0}, plan_.speech);
         if (mark.kind == MarkKind::turn && mark.value == "take") {
-            add(SignalKind::look_away, begin + 0.2, 1, act.manner, threshold_of_chance(drawn, kAwayAtTurn));
+            add({.kind = SignalKind::look_away, .peak = begin + 0.2}, act.manner,
+                threshold_of_chance(drawn, kAwayAtTurn));
         } else if (mark.kind == MarkKind::theme) {
-            add(SignalKind::look_away, begin + 0.1, 0.8, act.manner,
+            add({.kind = SignalKind::look_away, .peak = begin + 0.1, .amount = 0.8}, act.manner,
                 threshold_of_chance(drawn, kAwayInTheme));
         } else if (mark.kind == MarkKind::boundary && (mark.value == "LL" || mark.value == "HH")) {
             const double end = end_before(mark.first_word);
-            add(SignalKind::look_at, end - 0.1, 1, act.manner, threshold_of_chance(drawn, kLookAtEnd));
+            add({.kind = SignalKind::look_at, .peak = end - 0.1}, act.manner,
+                threshold_of_chance(drawn, kLookAtEnd));
             const bool ends_paragraph = mark.weight >= 0.9;
             if (ends_paragraph)
-                add(SignalKind::shift, end + 0.5, 1, act.manner,
+                add({.kind = SignalKind::shift, .peak = end + 0.5}, act.manner,
                     threshold_of_chance(random.uniform(), kShiftAtThought));
         }
     }
@@ -197,8 +202,10 @@ class SignalPlanner {
                 threshold_of_chance(random.uniform(), accent.is_nuclear ? kNodNuclear : kNodOther);
             const double brow =
                 threshold_of_chance(random.uniform(), accent.is_nuclear ? kBrowNuclear : kBrowOther);
-            add(SignalKind::nod, accent.time, 0.6 + 0.4 * random.uniform(), plan_.speaker, nod);
-            add(SignalKind::brow_raise, accent.time, 0.6 + 0.4 * random.uniform(), plan_.speaker, brow);
+            add({.kind = SignalKind::nod, .peak = accent.time, .amount = 0.6 + 0.4 * random.uniform()},
+                plan_.speaker, nod);
+            add({.kind = SignalKind::brow_raise, .peak = accent.time, .amount = 0.6 + 0.4 * random.uniform()},
+                plan_.speaker, brow);
         }
     }
 
@@ -214,10 +221,10 @@ class SignalPlanner {
             const bool hesitates = vocabulary.is_hesitation(plain_letters(words[word].text)) ||
                                    (is_inside && pause >= kHesitation);
             if (hesitates)
-                add(SignalKind::look_away, words[word].end, 0.9, plan_.speaker,
+                add({.kind = SignalKind::look_away, .peak = words[word].end, .amount = 0.9}, plan_.speaker,
                     threshold_of_chance(drawn, kAwayInHesitation));
             else if (pause >= kLongPause)
-                add(SignalKind::shift, words[word].end + 0.5 * pause, 1, plan_.speaker,
+                add({.kind = SignalKind::shift, .peak = words[word].end + 0.5 * pause}, plan_.speaker,
                     threshold_of_chance(drawn, kShiftAtThought));
         }
     }

@@ -58,9 +58,9 @@ MannerMetrics measure(const std::vector<Speech>& all, const Lexicon& lexicon, co
         speaker.manner = manner;
         const double length = speech.audio.duration();
         const Clock clock{.frames = static_cast<std::size_t>(length * kFps), .fps = kFps};
-        const Behaviours behaviours = plan_behaviours(speech, lexicon, speaker, variants, 1);
-        const ArmMotion arms = move_arms(
-            behaviours.gestures, {.lexicon = lexicon, .speaker = speaker, .variants = variants}, clock, 1);
+        const GestureStyle style{.lexicon = lexicon, .speaker = speaker, .variants = variants};
+        const Behaviours behaviours = plan_behaviours(speech, style, 1);
+        const ArmMotion arms = move_arms(behaviours.gestures, style, clock, 1);
         const MannerMetrics one = measure_manner(arms, lexicon, clock);
         const auto count = static_cast<double>(arms.placed.size());
         for (const Metric& metric : kMetrics)

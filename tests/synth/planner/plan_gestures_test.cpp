@@ -25,7 +25,7 @@ using testing::spoken;
 const double kThird = 0.4 / 3;  // where a word without phonemes is stressed [s]
 
 std::vector<PlannedGesture> planned(const Speech& speech, double activation = 1, std::uint64_t seed = 1) {
-    return plan_behaviours(speech, small_lexicon(), speaker_of(activation), {}, seed).gestures;
+    return plan_behaviours(speech, {small_lexicon(), speaker_of(activation), {}}, seed).gestures;
 }
 
 std::vector<std::string> shown(const std::vector<PlannedGesture>& gestures) {
@@ -62,7 +62,7 @@ TEST(PlanGestures, NotesANamedGestureThatAnotherOnItsWordDrops) {
     const Speech speech = spoken("hello there", {mark(MarkKind::gesture, "wave", 0, 1, 0.9),
                                                  mark(MarkKind::gesture, "offer", 0, 1, 0.8),
                                                  mark(MarkKind::emphasis, "low", 0, 1, 0.9)});
-    const Behaviours behaviours = plan_behaviours(speech, small_lexicon(), speaker_of(1), {}, 1);
+    const Behaviours behaviours = plan_behaviours(speech, {small_lexicon(), speaker_of(1), {}}, 1);
     EXPECT_THAT(shown(behaviours.gestures), ElementsAre("wave"));
     EXPECT_THAT(
         behaviours.notes,
@@ -201,12 +201,13 @@ TEST(PlanGestures, NamesTheLaterAccentsUpToTheLongestHorizon) {
 }
 
 TEST(PlanGestures, FindsAccentsWhereNobodyMarkedThem) {
-    const Behaviours unmarked = plan_behaviours(spoken("the big wheel of time"), small_lexicon(), {}, {}, 1);
+    const Behaviours unmarked =
+        plan_behaviours(spoken("the big wheel of time"), {small_lexicon(), {}, {}}, 1);
     EXPECT_THAT(unmarked.accents, ElementsAre(DoubleNear(0.4 + kThird, 1e-9), DoubleNear(0.8 + kThird, 1e-9),
                                               DoubleNear(1.6 + kThird, 1e-9)));
     const Speech speech = spoken("the big wheel of it", {mark(MarkKind::pitch_accent, "Hstar", 0, 1),
                                                          mark(MarkKind::rheme, "", 1, 5)});
-    const Behaviours marked = plan_behaviours(speech, small_lexicon(), {}, {}, 1);
+    const Behaviours marked = plan_behaviours(speech, {small_lexicon(), {}, {}}, 1);
     EXPECT_THAT(marked.accents, ElementsAre(DoubleNear(kThird, 1e-9), DoubleNear(0.8 + kThird, 1e-9)));
 }
 
@@ -219,7 +220,7 @@ TEST(PlanGestures, ActsTakeOverTheMannerOfThoseAroundThem) {
     Speaker speaker = speaker_of(1);
     speaker.manner[Expressivity::power] = 0.25;
     const std::vector<PlannedGesture> gestures =
-        plan_behaviours(speech, small_lexicon(), speaker, {}, 1).gestures;
+        plan_behaviours(speech, {small_lexicon(), speaker, {}}, 1).gestures;
     ASSERT_EQ(gestures.size(), 3u);
     EXPECT_EQ(gestures[0].manner[Expressivity::spatial_extent], 0.5);
     EXPECT_EQ(gestures[1].manner[Expressivity::spatial_extent], -1);
@@ -231,7 +232,7 @@ TEST(PlanGestures, TheHandFollowsTheSpeakersHabit) {
         Speaker speaker = speaker_of(1);
         speaker.handedness = handedness;
         const std::vector<PlannedGesture> gestures =
-            plan_behaviours(talk(), small_lexicon(), speaker, {}, 1).gestures;
+            plan_behaviours(talk(), {small_lexicon(), speaker, {}}, 1).gestures;
         const auto left = std::count_if(gestures.begin(), gestures.end(),
                                         [](const PlannedGesture& w) { return w.left_hand; });
         return static_cast<double>(left) / static_cast<double>(gestures.size());
@@ -243,7 +244,7 @@ TEST(PlanGestures, TheHandFollowsTheSpeakersHabit) {
 
 TEST(PlanGestures, NoGestureFollowsItself) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
-        const Behaviours planned = plan_behaviours(talk(), full_lexicon(), speaker_of(1), {}, seed);
+        const Behaviours planned = plan_behaviours(talk(), {full_lexicon(), speaker_of(1), {}}, seed);
         for (std::size_t i = 1; i < planned.gestures.size(); ++i)
             EXPECT_NE(planned.gestures[i].gesture, planned.gestures[i - 1].gesture) << i;
     }
@@ -274,7 +275,7 @@ TEST(PlanGestures, AHigherActivationOnlyAdds) {
 TEST(PlanGestures, AnOrdinarySpeakerMakesTenToSixteenGesturesAMinute) {
     const double minutes = talk().words.back().end / 60;
     const auto rate = [&](double activation) {
-        const Behaviours planned = plan_behaviours(talk(), full_lexicon(), speaker_of(activation), {}, 1);
+        const Behaviours planned = plan_behaviours(talk(), {full_lexicon(), speaker_of(activation), {}}, 1);
         return static_cast<double>(planned.gestures.size()) / minutes;
     };
     EXPECT_GT(rate(0.5), 10);
@@ -290,7 +291,7 @@ TEST(PlanGestures, TheMannerChangesTheMannerAlone) {
           Expressivity::power, Expressivity::repetition})
         other.manner[dimension] = -0.8;
     const std::vector<PlannedGesture> a = planned(talk(), 0.7);
-    const std::vector<PlannedGesture> b = plan_behaviours(talk(), small_lexicon(), other, {}, 1).gestures;
+    const std::vector<PlannedGesture> b = plan_behaviours(talk(), {small_lexicon(), other, {}}, 1).gestures;
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) {
         EXPECT_EQ(a[i].gesture, b[i].gesture);
@@ -303,7 +304,7 @@ TEST(PlanGestures, TheSameSeedChoosesTheSameAndAnotherOthers) {
     const auto chosen = [](std::uint64_t seed) {
         std::vector<std::size_t> gestures;
         for (const PlannedGesture& gesture :
-             plan_behaviours(talk(), full_lexicon(), speaker_of(1), {}, seed).gestures)
+             plan_behaviours(talk(), {full_lexicon(), speaker_of(1), {}}, seed).gestures)
             gestures.push_back(gesture.gesture);
         return gestures;
     };
@@ -313,7 +314,7 @@ TEST(PlanGestures, TheSameSeedChoosesTheSameAndAnotherOthers) {
 
 TEST(PlanGestures, NobodySpeaksNobodyGestures) {
     EXPECT_THAT(planned(Speech{}), IsEmpty());
-    EXPECT_THAT(plan_behaviours(talk(), Lexicon{}, speaker_of(1), {}, 1).gestures, IsEmpty());
+    EXPECT_THAT(plan_behaviours(talk(), {Lexicon{}, speaker_of(1), {}}, 1).gestures, IsEmpty());
 }
 
 }  // namespace

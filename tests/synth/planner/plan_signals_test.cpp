@@ -20,7 +20,7 @@ using testing::spoken;
 const double kThird = 0.4 / 3;
 
 std::vector<Signal> signals_of(const Speech& speech, const Speaker& speaker, std::uint64_t seed = 1) {
-    return plan_behaviours(speech, small_lexicon(), speaker, {}, seed).signals;
+    return plan_behaviours(speech, {small_lexicon(), speaker, {}}, seed).signals;
 }
 
 std::set<SignalKind> kinds_of(const std::vector<Signal>& signals) {
@@ -96,7 +96,7 @@ TEST(PlanSignals, AreThereAtTheStressInTheMannerOfTheirAct) {
 
 TEST(PlanSignals, HeadAndBrowsMoveOnAccents) {
     const std::vector<Signal> signals = signals_of(talk(), speaker_of(1));
-    const Behaviours behaviours = plan_behaviours(talk(), small_lexicon(), speaker_of(1), {}, 1);
+    const Behaviours behaviours = plan_behaviours(talk(), {small_lexicon(), speaker_of(1), {}}, 1);
     for (const Signal& signal : signals) {
         if (signal.kind != SignalKind::nod) continue;
         const bool is_on_a_word = std::any_of(
