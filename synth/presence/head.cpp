@@ -7,6 +7,7 @@
 
 #include "core/math.h"
 #include "synth/presence/signal_shape.h"
+#include "synth/presence/style.h"
 
 namespace chironomia {
 namespace {
@@ -122,12 +123,12 @@ void add_drift(HeadCurves& head, const VoiceLevel& loudness, const PresenceStyle
 
 }  // namespace
 
-HeadCurves move_head(const Behaviours& behaviours, const VoiceLevel& loudness, const PresenceStyle& style,
-                     const FrameTimes& times, std::uint64_t seed) {
-    HeadCurves head{Curve(times), Curve(times), Curve(times)};
-    add_signals(head, behaviours, style, Random(seed, 100));
-    add_beats(head, behaviours, style, Random(seed, 101));
-    add_drift(head, loudness, style, seed);
+HeadCurves move_head(const PresenceInputs& inputs, const VoiceLevel& loudness) {
+    const PresenceStyle style = style_of(inputs.speaker);
+    HeadCurves head{Curve(inputs.times), Curve(inputs.times), Curve(inputs.times)};
+    add_signals(head, inputs.behaviours, style, Random(inputs.seed, 100));
+    add_beats(head, inputs.behaviours, style, Random(inputs.seed, 101));
+    add_drift(head, loudness, style, inputs.seed);
     return head;
 }
 

@@ -1,11 +1,8 @@
 // How the head moves on its neck: nods, shakes, tilts, and what goes along with the voice.
 #pragma once
 
-#include <cstdint>
-
-#include "synth/planner/behaviour.h"
 #include "synth/presence/curve.h"
-#include "synth/presence/style.h"
+#include "synth/presence/presence_inputs.h"
 #include "synth/presence/voice_activity.h"
 
 namespace chironomia {
@@ -18,7 +15,6 @@ struct HeadCurves {
 
 // Movements that overlap add up. A nod winds up a little, goes down, and overshoots when it comes back; a shake
 // goes to one side, to the other, and fades; a tilt stays. A usual nod is 9 degrees deep, a shake 10 wide.
-HeadCurves move_head(const Behaviours& behaviours, const VoiceLevel& loudness, const PresenceStyle& style,
-                     const FrameTimes& times, std::uint64_t seed);
+HeadCurves move_head(const PresenceInputs& inputs, const VoiceLevel& loudness);
 
 }  // namespace chironomia

@@ -178,8 +178,8 @@ IdleBody animate_smiling_body(const PresenceInputs& inputs, const Curve& smile) 
         plan_gaze(behaviours.signals, phrases, times.last(), Random(seed, 1));
     const Presence presence{.breath = breathe(phrases, times, Random(seed, 2)),
                             .stance = shift_weight(behaviours.signals, times, seed),
-                            .trunk = move_trunk(behaviours, loudness, speaker, times, seed),
-                            .head = move_head(behaviours, loudness, style, times, seed),
+                            .trunk = move_trunk(inputs, loudness),
+                            .head = move_head(inputs, loudness),
                             .gaze = move_gaze(shifts, style.quickness, times, Random(seed, 3)),
                             .partner = partner};
 

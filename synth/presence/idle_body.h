@@ -1,16 +1,12 @@
 // The motion of the body without the arms, while a person speaks or listens: stance, breath, gaze, head and face.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "core/body/face.h"
 #include "core/math.h"
-#include "core/speech.h"
-#include "synth/planner/behaviour.h"
 #include "synth/presence/curve.h"
-#include "synth/speakers/speaker.h"
+#include "synth/presence/presence_inputs.h"
 
 namespace chironomia {
 
@@ -22,15 +18,6 @@ struct IdleBody {
     // Brows, eyes, blinks, smiles and the faces of emotions; the gaze. No mouth shapes of speech; `head` is
     // empty.
     FaceTrack face;
-};
-
-struct PresenceInputs {
-    const Behaviours& behaviours;
-    const Speech& speech;
-    const Speaker& speaker;
-    FrameTimes times;
-    std::uint64_t seed = 0;
-    double partner = 0;  // how far to the person's left the partner stands [rad], -0.8 to 0.8
 };
 
 // The partner's eyes are as high as the person's. Feet stay planted; head and eyes stay within 45 degrees

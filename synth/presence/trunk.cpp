@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/math.h"
+#include "synth/presence/style.h"
 
 namespace chironomia {
 namespace {
@@ -22,13 +23,12 @@ constexpr TrunkParameters kTrunk;
 
 }  // namespace
 
-TrunkCurves move_trunk(const Behaviours& behaviours, const VoiceLevel& loudness, const Speaker& speaker,
-                       const FrameTimes& times, std::uint64_t seed) {
-    const PresenceStyle style = style_of(speaker);
-    TrunkCurves trunk{Curve(times), Curve(times)};
-    const double strength = 1 + kTrunk.beat_by_power * speaker.manner[Expressivity::power];
-    Random random(seed, 400);
-    for (const double accent : behaviours.accents) {
+TrunkCurves move_trunk(const PresenceInputs& inputs, const VoiceLevel& loudness) {
+    const PresenceStyle style = style_of(inputs.speaker);
+    TrunkCurves trunk{Curve(inputs.times), Curve(inputs.times)};
+    const double strength = 1 + kTrunk.beat_by_power * inputs.speaker.manner[Expressivity::power];
+    Random random(inputs.seed, 400);
+    for (const double accent : inputs.behaviours.accents) {
         const double size =
             radians(kTrunk.beat) * strength * style.liveliness * draw_between(random, kTrunk.beat_amount);
         const std::array<Knot, 3> way = {{{accent - kTrunk.beat_rise * style.rise, 0},
@@ -36,7 +36,7 @@ TrunkCurves move_trunk(const Behaviours& behaviours, const VoiceLevel& loudness,
                                           {accent + kTrunk.beat_end, 0}}};
         trunk.pitch.add(way);
     }
-    const Waves turns(Random(seed, 401), kTrunk.turn_lowest * style.quickness,
+    const Waves turns(Random(inputs.seed, 401), kTrunk.turn_lowest * style.quickness,
                       kTrunk.turn_highest * style.quickness);
     trunk.yaw.add_each([&](double time) {
         return radians(kTrunk.turn) * style.liveliness * loudness.at(time) * turns.at(time);
