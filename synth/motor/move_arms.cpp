@@ -36,15 +36,18 @@ double sigma_of(const Manner& manner, FluidityMap map) {
     return std::lerp(corner, kFluidSigma, fluidity);
 }
 
-ArmPath path_of(const Schedule& plan, const std::vector<PlannedGesture>& planned_gestures,
-                const ArmState& resting, ArmSide side, FluidityMap map) {
+ArmPath path_of(const Schedule& plan, const ScheduleInputs& inputs, ArmSide side) {
     std::vector<ArmKey> keys = plan.keys[index_of(side)];
-    if (keys.empty()) keys.push_back({.time = 0, .state = resting, .placed = plan.placed.size()});
+    if (keys.empty())
+        keys.push_back({.time = 0, .state = inputs.resting[index_of(side)], .placed = plan.placed.size()});
     std::vector<TcbShape> shapes;
     for (const ArmKey& key : keys) {
-        const bool rests = key.placed == plan.placed.size();
-        shapes.push_back(rests ? TcbShape{}
-                               : shape_of(planned_gestures[plan.placed[key.placed].planned].manner, map));
+        if (key.placed == plan.placed.size()) {
+            shapes.push_back({});  // at rest
+            continue;
+        }
+        const Manner& manner = inputs.planned_gestures[plan.placed[key.placed].planned].manner;
+        shapes.push_back(shape_of(manner, inputs.variants.fluidity_map));
     }
     return {std::move(keys), shapes, side};
 }
@@ -225,16 +228,16 @@ ArmMotion move_arms(const std::vector<PlannedGesture>& planned_gestures, const G
         performable_gestures.push_back(
             make_performable(lexicon.gestures[planned.gesture], planned.left_hand, planned.manner, style));
     const double duration = static_cast<double>(clock.frames) / clock.fps;
-    Schedule plan = schedule({.planned_gestures = planned_gestures,
-                              .performable_gestures = performable_gestures,
-                              .lexicon = lexicon,
-                              .resting = resting,
-                              .variants = variants,
-                              .duration = duration});
+    const ScheduleInputs inputs{.planned_gestures = planned_gestures,
+                                .performable_gestures = performable_gestures,
+                                .lexicon = lexicon,
+                                .resting = resting,
+                                .variants = variants,
+                                .duration = duration};
+    Schedule plan = schedule(inputs);
 
-    const std::array<ArmPath, 2> paths = {
-        path_of(plan, planned_gestures, resting[0], ArmSide::left, variants.fluidity_map),
-        path_of(plan, planned_gestures, resting[1], ArmSide::right, variants.fluidity_map)};
+    const std::array<ArmPath, 2> paths = {path_of(plan, inputs, ArmSide::left),
+                                          path_of(plan, inputs, ArmSide::right)};
     std::vector<double> sigmas;
     for (const PlacedGesture& placed : plan.placed)
         sigmas.push_back(sigma_of(planned_gestures[placed.planned].manner, variants.fluidity_map));

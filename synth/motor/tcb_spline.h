@@ -26,32 +26,6 @@ struct TcbTangents {
     V out{};
 };
 
-// Kochanek, Bartels, "Interpolating Splines with Local Tension, Continuity, and Bias Control", SIGGRAPH 1984,
-// for the key at `here`; with their adjustment for the seconds `before` and `after`, both above 0:
-//     in  = (1 - t)(1 - c)(1 + b) / 2 (here - previous) + (1 - t)(1 + c)(1 - b) / 2 (next - here)
-//     out = (1 - t)(1 + c)(1 + b) / 2 (here - previous) + (1 - t)(1 - c)(1 - b) / 2 (next - here)
-//     in *= 2 before / (before + after), out *= 2 after / (before + after)
-template <typename V>
-TcbTangents<V> tcb_tangents(const V& previous, const V& here, const V& next, double before, double after,
-                            const TcbShape& shape) {
-    const double t = 1 - shape.tension;
-    const double c = shape.continuity;
-    const double b = shape.bias;
-    const V arriving = here - previous, leaving = next - here;
-    const double whole = (before + after) / 2;
-    return {.in = (arriving * (t * (1 - c) * (1 + b) / 2) + leaving * (t * (1 + c) * (1 - b) / 2)) *
-                  (before / whole),
-            .out = (arriving * (t * (1 + c) * (1 + b) / 2) + leaving * (t * (1 - c) * (1 - b) / 2)) *
-                   (after / whole)};
-}
-
-// Hermite's cubic from `from` to `to`, with the tangents `out` and `in`, at s in [0, 1].
-template <typename V>
-V hermite(const V& from, const V& out, const V& to, const V& in, double s) {
-    const double s2 = s * s, s3 = s2 * s;
-    return from * (2 * s3 - 3 * s2 + 1) + out * (s3 - 2 * s2 + s) + to * (3 * s2 - 2 * s3) + in * (s3 - s2);
-}
-
 template <typename V>
 struct TcbKey {
     double time = 0;  // [s]
@@ -59,6 +33,25 @@ struct TcbKey {
     TcbShape shape{};
     bool stops = false;  // at rest at this moment: both tangents are 0, whatever the shape
 };
+
+// Kochanek, Bartels, "Interpolating Splines with Local Tension, Continuity, and Bias Control", SIGGRAPH 1984,
+// for the key `here`; with their adjustment for the seconds `before` and `after` it, both above 0:
+//     in  = (1 - t)(1 - c)(1 + b) / 2 (here - previous) + (1 - t)(1 + c)(1 - b) / 2 (next - here)
+//     out = (1 - t)(1 + c)(1 + b) / 2 (here - previous) + (1 - t)(1 - c)(1 - b) / 2 (next - here)
+//     in *= 2 before / (before + after), out *= 2 after / (before + after)
+template <typename V>
+TcbTangents<V> tcb_tangents(const TcbKey<V>& previous, const TcbKey<V>& here, const TcbKey<V>& next) {
+    const double t = 1 - here.shape.tension;
+    const double c = here.shape.continuity;
+    const double b = here.shape.bias;
+    const V arriving = here.value - previous.value, leaving = next.value - here.value;
+    const double before = here.time - previous.time, after = next.time - here.time;
+    const double whole = (before + after) / 2;
+    return {.in = (arriving * (t * (1 - c) * (1 + b) / 2) + leaving * (t * (1 + c) * (1 - b) / 2)) *
+                  (before / whole),
+            .out = (arriving * (t * (1 + c) * (1 + b) / 2) + leaving * (t * (1 - c) * (1 - b) / 2)) *
+                   (after / whole)};
+}
 
 inline double size_of(double value) {
     return std::abs(value);
@@ -86,17 +79,24 @@ class TcbSpline {
         if (next == keys_.begin()) return keys_.front().value;
         if (next == keys_.end()) return keys_.back().value;
         const auto k = static_cast<std::size_t>(next - keys_.begin());
-        const double s = (time - keys_[k - 1].time) / (keys_[k].time - keys_[k - 1].time);
-        return hermite(keys_[k - 1].value, tangents_[k - 1].out, keys_[k].value, tangents_[k].in, s);
+        return hermite(k, (time - keys_[k - 1].time) / (keys_[k].time - keys_[k - 1].time));
     }
 
     const std::vector<TcbTangents<V>>& tangents() const { return tangents_; }
 
   private:
+    // Hermite's cubic from the key before k to k, at s in [0, 1].
+    V hermite(std::size_t k, double s) const {
+        const V &from = keys_[k - 1].value, &out = tangents_[k - 1].out;
+        const V &to = keys_[k].value, &in = tangents_[k].in;
+        const double s2 = s * s, s3 = s2 * s;
+        return from * (2 * s3 - 3 * s2 + 1) + out * (s3 - 2 * s2 + s) + to * (3 * s2 - 2 * s3) +
+               in * (s3 - s2);
+    }
+
     TcbTangents<V> tangents_at(std::size_t k, double limit) const {
         const TcbKey<V>&a = keys_[k - 1], &b = keys_[k], &c = keys_[k + 1];
-        TcbTangents<V> found =
-            tcb_tangents(a.value, b.value, c.value, b.time - a.time, c.time - b.time, b.shape);
+        const TcbTangents<V> found = tcb_tangents(a, b, c);
         const double longest_in = limit * size_of(b.value - a.value);
         const double longest_out = limit * size_of(c.value - b.value);
         double factor = 1;
