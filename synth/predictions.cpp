@@ -18,16 +18,24 @@ constexpr auto kFormat = "chironomia predictions";
 // [frames/s] As of the motions that are read: slower, half a second has no frame.
 constexpr double kSlowest = 1, kFastest = 1000;
 
-using Rows = std::vector<float> PredictedItem::*;
+// An array of the file: the rows of one item after another.
+struct ItemArray {
+    const char* path;
+    std::vector<float> PredictedItem::*rows;
+};
+constexpr ItemArray kTruth{"truth", &PredictedItem::truth};
+constexpr ItemArray kPrediction{"prediction", &PredictedItem::prediction};
+constexpr ItemArray kPartner{"partner", &PredictedItem::partner};
 
-void write_rows(Hdf5Writer& writer, const char* path, const Predictions& predictions, Rows rows) {
+void write_rows(Hdf5Writer& writer, const Predictions& predictions, const ItemArray& array) {
     std::vector<float> all;
     for (const PredictedItem& item : predictions.items) {
-        assert((item.*rows).size() == item.truth.size());
-        all.insert(all.end(), (item.*rows).begin(), (item.*rows).end());
+        const std::vector<float>& rows = item.*array.rows;
+        assert(rows.size() == item.truth.size());
+        all.insert(all.end(), rows.begin(), rows.end());
     }
     const std::size_t width = predictions.features.size();
-    writer.write_floats(path, {all.size() / width, width}, all, Hdf5Writer::Packing::deflated);
+    writer.write_floats(array.path, {all.size() / width, width}, all, Hdf5Writer::Packing::deflated);
 }
 
 void write_items(Hdf5Writer& writer, const Predictions& predictions) {
@@ -44,10 +52,9 @@ void write_items(Hdf5Writer& writer, const Predictions& predictions) {
     writer.write_texts("speakers", speakers);
     if (!styles.front().empty()) writer.write_texts("styles", styles);
     writer.write_ints("frames", {frames.size()}, frames);
-    write_rows(writer, "truth", predictions, &PredictedItem::truth);
-    write_rows(writer, "prediction", predictions, &PredictedItem::prediction);
-    if (!predictions.items.front().partner.empty())
-        write_rows(writer, "partner", predictions, &PredictedItem::partner);
+    write_rows(writer, predictions, kTruth);
+    write_rows(writer, predictions, kPrediction);
+    if (!predictions.items.front().partner.empty()) write_rows(writer, predictions, kPartner);
 }
 
 std::string read_one(const Hdf5File& file, const std::string& path) {
@@ -97,15 +104,15 @@ std::vector<std::size_t> read_items(const Hdf5File& file, Predictions& predictio
     return counts;
 }
 
-void read_rows(const Hdf5File& file, const char* path, const std::vector<std::size_t>& frames,
-               Predictions& predictions, Rows rows) {
+void read_rows(const Hdf5File& file, const ItemArray& array, const std::vector<std::size_t>& frames,
+               Predictions& predictions) {
     const std::size_t width = predictions.features.size();
     const std::size_t total = std::accumulate(frames.begin(), frames.end(), std::size_t{0});
-    const std::vector<double> numbers = file.read_numbers(path, {total, width});
+    const std::vector<double> numbers = file.read_numbers(array.path, {total, width});
     auto next = numbers.begin();
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const auto end = next + static_cast<std::ptrdiff_t>(frames[i] * width);
-        (predictions.items[i].*rows).assign(next, end);
+        (predictions.items[i].*array.rows).assign(next, end);
         next = end;
     }
 }
@@ -148,9 +155,9 @@ Predictions read_predictions(const std::filesystem::path& file) {
     }
     read_features(reader, predictions);
     const std::vector<std::size_t> frames = read_items(reader, predictions);
-    read_rows(reader, "truth", frames, predictions, &PredictedItem::truth);
-    read_rows(reader, "prediction", frames, predictions, &PredictedItem::prediction);
-    if (reader.has("partner")) read_rows(reader, "partner", frames, predictions, &PredictedItem::partner);
+    read_rows(reader, kTruth, frames, predictions);
+    read_rows(reader, kPrediction, frames, predictions);
+    if (reader.has(kPartner.path)) read_rows(reader, kPartner, frames, predictions);
     return predictions;
 }
 

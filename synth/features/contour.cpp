@@ -17,8 +17,16 @@ double median_of(std::vector<double>& values) {
     return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
-double on_line(double x, double x0, double y0, double x1, double y1) {
-    return y0 + (y1 - y0) * (x - x0) / (x1 - x0);
+struct KnownSample {
+    std::size_t index = 0;
+    double value = 0;
+};
+
+// On the line through two samples.
+double on_line(std::size_t index, const KnownSample& a, const KnownSample& b) {
+    const auto x = static_cast<double>(index);
+    const auto xa = static_cast<double>(a.index), xb = static_cast<double>(b.index);
+    return a.value + (b.value - a.value) * (x - xa) / (xb - xa);
 }
 
 float pitch_in_range(double f0) {
@@ -38,8 +46,7 @@ void fill_within(std::vector<float>& f0, const std::vector<std::size_t>& known, 
     for (std::size_t i = range.first; i < range.last; ++i) {
         while (right + 1 < known.size() && known[right] < i) ++right;
         const std::size_t a = known[right - 1], b = known[right];
-        f0[i] = pitch_in_range(on_line(static_cast<double>(i), static_cast<double>(a), source[a],
-                                       static_cast<double>(b), source[b]));
+        f0[i] = pitch_in_range(on_line(i, {a, source[a]}, {b, source[b]}));
     }
 }
 
@@ -76,10 +83,7 @@ std::optional<std::vector<float>> bridge_gaps(const Measured& measured) {
                 const float a = measured.values[left * measured.width + column];
                 const float b = measured.values[right * measured.width + column];
                 bridged[t * measured.width + column] =
-                    left == right
-                        ? a
-                        : static_cast<float>(on_line(static_cast<double>(t), static_cast<double>(left), a,
-                                                     static_cast<double>(right), b));
+                    left == right ? a : static_cast<float>(on_line(t, {left, a}, {right, b}));
             }
     };
     for (std::size_t t = 0; t < measured.frames(); ++t) {

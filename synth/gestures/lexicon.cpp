@@ -44,10 +44,11 @@ std::string read_id(const JsonValue& value) {
     return id;
 }
 
-// Puts an entry at its place: at the end, or over the one of an earlier file that it replaces.
+// Puts the entry of a JSON value at its place: at the end, or over the one of an earlier file that it replaces.
 template <typename Entry>
-void put(std::vector<Entry>& entries, Entry entry, std::size_t of_earlier_files, bool replaces,
-         const JsonValue& value) {
+void put(std::vector<Entry>& entries, Entry entry, std::size_t of_earlier_files, const JsonValue& value) {
+    const auto answer = value.find("replaces");
+    const bool replaces = answer && read_answer(*answer);
     const auto same =
         std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.id == entry.id; });
     const bool is_earlier = same < entries.begin() + static_cast<std::ptrdiff_t>(of_earlier_files);
@@ -67,11 +68,6 @@ void put(std::vector<Entry>& entries, Entry entry, std::size_t of_earlier_files,
                    entry.id));
     }
     *same = std::move(entry);
-}
-
-bool replaces(const JsonValue& value) {
-    const auto answer = value.find("replaces");
-    return answer && read_answer(*answer);
 }
 
 // One file of a lexicon.
@@ -107,8 +103,7 @@ void read_shapes(const LexiconFile& file, std::vector<NamedBends>& shapes) {
                         return s.id == model;
                     })->bends;
         }
-        put(shapes, NamedBends{.id = id, .bends = read_hand_bends(value, start)}, earlier, replaces(value),
-            value);
+        put(shapes, NamedBends{.id = id, .bends = read_hand_bends(value, start)}, earlier, value);
     }
 }
 
@@ -175,7 +170,7 @@ void read_gestures(const LexiconFile& file, Lexicon& lexicon) {
     const std::size_t earlier = lexicon.gestures.size();
     for (const JsonValue& value : section->items(0)) {
         const JsonValue named = value.called(format("gesture \"{}\"", read_id(value.at("id"))));
-        put(lexicon.gestures, read_gesture(named, lexicon.shapes), earlier, replaces(named), named);
+        put(lexicon.gestures, read_gesture(named, lexicon.shapes), earlier, named);
     }
 }
 

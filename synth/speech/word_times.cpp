@@ -231,13 +231,13 @@ std::vector<bool> doubts_of(const std::vector<Span>& spans, const std::vector<So
     return doubts;
 }
 
-// Divides the phonemes of the words [first, end) again, by the phonemes of each word said alone.
-void divide_phonemes(std::vector<Span>& spans, std::size_t first, std::size_t end,
-                     const std::vector<Sound>& sounds, const std::vector<std::vector<std::string>>& alone) {
+// Divides the phonemes of the words in `run` again, by the phonemes of each word said alone.
+void divide_phonemes(std::vector<Span>& spans, const Span& run, const std::vector<Sound>& sounds,
+                     const std::vector<std::vector<std::string>>& alone) {
     Span all{.first = sounds.size(), .end = 0};
     Symbols expected;
     std::vector<std::size_t> borders = {0};
-    for (std::size_t i = first; i < end; ++i) {
+    for (std::size_t i = run.first; i < run.end; ++i) {
         if (!spans[i].empty()) all = {std::min(all.first, spans[i].first), std::max(all.end, spans[i].end)};
         expected.insert(expected.end(), alone[i].begin(), alone[i].end());
         borders.push_back(expected.size());
@@ -245,9 +245,9 @@ void divide_phonemes(std::vector<Span>& spans, std::size_t first, std::size_t en
     const Heard heard = heard_in(sounds, all);
     const std::vector<std::size_t> counts = Distances(heard.symbols, expected).heard_for();
     std::size_t taken = 0;
-    for (std::size_t i = first; i < end; ++i) {
-        const bool is_last = i + 1 == end;
-        const std::size_t border = is_last ? heard.places.size() : counts[borders[i + 1 - first]];
+    for (std::size_t i = run.first; i < run.end; ++i) {
+        const bool is_last = i + 1 == run.end;
+        const std::size_t border = is_last ? heard.places.size() : counts[borders[i + 1 - run.first]];
         spans[i] = border == taken ? Span{} : Span{heard.places[taken], heard.places[border - 1] + 1};
         taken = border;
     }
@@ -261,7 +261,7 @@ void redo_doubtful_words(std::vector<Span>& spans, const std::vector<Sound>& sou
     for (std::size_t first = 0; first < spans.size();) {
         std::size_t end = first;
         while (end < spans.size() && doubts[end] && (end - first < kLongestRun || spans[end].empty())) ++end;
-        if (end > first + 1) divide_phonemes(spans, first, end, sounds, alone);
+        if (end > first + 1) divide_phonemes(spans, {.first = first, .end = end}, sounds, alone);
         first = std::max(end, first + 1);
     }
 }

@@ -10,11 +10,6 @@
 namespace chironomia {
 namespace {
 
-std::vector<float> seen(const std::vector<float>& values, std::size_t width, float deviation,
-                        const Sight& sight, Random random) {
-    return tracked(values, std::vector<float>(width, deviation), sight, random);
-}
-
 std::vector<float> cleaned(const std::vector<float>& values, const std::vector<std::uint8_t>& success) {
     auto clean =
         smooth_and_bridge({.values = values, .width = values.size() / success.size(), .success = success});
@@ -37,9 +32,12 @@ TrackedFace track_face(const FaceTrack& face, std::span<const int> units, bool n
     all.units = intensities_of(face, frames, units);
     Sight sight = sight_of(frames, noise, Random(random.next(), 1));
     if (noise) {
-        all.gaze = seen(all.gaze, TrackedFace::kGaze, kAngleNoise, sight, Random(random.next(), 2));
-        all.head = seen(all.head, TrackedFace::kHead, kAngleNoise, sight, Random(random.next(), 3));
-        all.units = seen(all.units, units.size(), kUnitNoise, sight, Random(random.next(), 4));
+        const std::vector<float> gaze_noise(TrackedFace::kGaze, kAngleNoise);
+        const std::vector<float> head_noise(TrackedFace::kHead, kAngleNoise);
+        const std::vector<float> unit_noise(units.size(), kUnitNoise);
+        all.gaze = tracked(all.gaze, gaze_noise, sight, Random(random.next(), 2));
+        all.head = tracked(all.head, head_noise, sight, Random(random.next(), 3));
+        all.units = tracked(all.units, unit_noise, sight, Random(random.next(), 4));
     }
     all.success = std::move(sight.success);
     all.confidence = std::move(sight.confidence);

@@ -25,14 +25,21 @@ constexpr PatsJoint kArms[] = {{1, HumanJoint::right_upper_arm}, {2, HumanJoint:
                                {3, HumanJoint::right_hand},      {4, HumanJoint::left_upper_arm},
                                {5, HumanJoint::left_lower_arm},  {6, HumanJoint::left_hand}};
 
-// The first joint of each finger; the others follow it in HumanJoint, and the tip comes last.
-constexpr std::array<HumanJoint, 5> kLeftFingers = {HumanJoint::left_thumb_1, HumanJoint::left_index_1,
-                                                    HumanJoint::left_middle_1, HumanJoint::left_ring_1,
-                                                    HumanJoint::left_little_1};
-constexpr std::array<HumanJoint, 5> kRightFingers = {HumanJoint::right_thumb_1, HumanJoint::right_index_1,
-                                                     HumanJoint::right_middle_1, HumanJoint::right_ring_1,
-                                                     HumanJoint::right_little_1};
-constexpr std::size_t kLeftRoot = 10, kRightRoot = 31;
+struct PatsHand {
+    std::size_t root;  // the fingers of PATS follow it
+    HumanJoint hand;
+    // The first joint of each finger; the others follow it in HumanJoint, and the tip comes last.
+    std::array<HumanJoint, 5> fingers;
+};
+constexpr PatsHand kHands[] = {
+    {10,
+     HumanJoint::left_hand,
+     {HumanJoint::left_thumb_1, HumanJoint::left_index_1, HumanJoint::left_middle_1, HumanJoint::left_ring_1,
+      HumanJoint::left_little_1}},
+    {31,
+     HumanJoint::right_hand,
+     {HumanJoint::right_thumb_1, HumanJoint::right_index_1, HumanJoint::right_middle_1,
+      HumanJoint::right_ring_1, HumanJoint::right_little_1}}};
 
 // One frame in the world [m].
 struct Body {
@@ -40,9 +47,9 @@ struct Body {
     FacePoints face;
 };
 
-void place_hand(Body& body, const std::vector<Mat4>& world, std::size_t root, HumanJoint hand,
-                const std::array<HumanJoint, 5>& fingers) {
+void place_hand(Body& body, const std::vector<Mat4>& world, const PatsHand& of) {
     constexpr float kTip = 0.8f;  // of the last bone but one
+    const auto& [root, hand, fingers] = of;
     body.joints[root] = origin(world[joint_of(hand)]);
     for (std::size_t f = 0; f < fingers.size(); ++f) {
         const std::size_t first = joint_of(fingers[f]);
@@ -58,8 +65,7 @@ Body body_at(const Motion& motion, std::size_t frame) {
     Body body;
     for (const PatsJoint& arm : kArms) body.joints[arm.joint] = origin(world[joint_of(arm.part)]);
     body.joints[kNeck] = 0.5f * (body.joints[kRightShoulder] + body.joints[kLeftShoulder]);
-    place_hand(body, world, kLeftRoot, HumanJoint::left_hand, kLeftFingers);
-    place_hand(body, world, kRightRoot, HumanJoint::right_hand, kRightFingers);
+    for (const PatsHand& hand : kHands) place_hand(body, world, hand);
     const Vec3 eyes = 0.5f * (skeleton.joints[joint_of(HumanJoint::left_eye)].rest.translation +
                               skeleton.joints[joint_of(HumanJoint::right_eye)].rest.translation);
     body.face = place_face_points(*motion.face, frame);
@@ -70,9 +76,16 @@ Body body_at(const Motion& motion, std::size_t frame) {
     return body;
 }
 
-// What a detector makes of one frame's points; the first `sure` of them are never lost.
-void append_seen(PicturePoints& seen, const std::vector<Vec2>& points, std::size_t sure, bool noise,
-                 Random& random) {
+// What finds points in pictures.
+struct Detector {
+    bool noise;
+    Random random;
+
+    // Appends what is found of one frame's points; the first `sure` of them are never lost.
+    void find(const std::vector<Vec2>& points, std::size_t sure, PicturePoints& seen);
+};
+
+void Detector::find(const std::vector<Vec2>& points, std::size_t sure, PicturePoints& seen) {
     constexpr double kLost = 0.01, kDeviation = 0.4;
     const std::size_t count = points.size(), first = seen.places.size();
     seen.places.resize(first + 2 * count);
@@ -95,6 +108,7 @@ void append_seen(PicturePoints& seen, const std::vector<Vec2>& points, std::size
 
 PicturedPerson picture_person(const Motion& motion, const FarCamera& camera, bool noise, Random random) {
     PicturedPerson person;
+    Detector detector{.noise = noise, .random = random};
     for (std::size_t t = 0; t < motion.frames; ++t) {
         const Body body = body_at(motion, t);
         const auto seen = [&](const auto& places) {
@@ -102,8 +116,8 @@ PicturedPerson picture_person(const Motion& motion, const FarCamera& camera, boo
             for (const Vec3& place : places) points.push_back(seen_from(camera, place, body.joints[kNeck]));
             return points;
         };
-        append_seen(person.pose, seen(body.joints), 1, noise, random);
-        append_seen(person.face, seen(body.face), 0, noise, random);
+        detector.find(seen(body.joints), 1, person.pose);
+        detector.find(seen(body.face), 0, person.face);
     }
     const auto width = shoulder_width(person.pose);
     assert(width);  // shoulders are lost in one frame of a hundred

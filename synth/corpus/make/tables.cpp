@@ -13,10 +13,16 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRecordings = "recordings";
 
-// The row of a matrix of `width` columns, its cells with the separator before each.
-void append_row(std::string& text, std::span<const float> values, std::size_t width, std::size_t row,
-                char separator) {
-    for (const float value : values.subspan(row * width, width)) text += format("{}{}", separator, value);
+// A row of a matrix of `width` columns.
+std::span<const float> row_of(std::span<const float> values, std::size_t width, std::size_t row) {
+    return values.subspan(row * width, width);
+}
+
+// The cells of a row with the separator before each.
+std::string cells(std::span<const float> row, char separator) {
+    std::string text;
+    for (const float value : row) text += format("{}{}", separator, value);
+    return text;
 }
 
 // A tracker finds no unit weaker than 0 or stronger than 5.
@@ -34,9 +40,9 @@ std::string openface_table(const RecordedTables& tables) {
     for (std::size_t t = 0; t < face.frames(); ++t) {
         text += format("\n{},0,{:.6f},{},{}", t + 1, static_cast<double>(t) / tables.fps, face.confidence[t],
                        face.success[t]);
-        append_row(text, face.gaze, TrackedFace::kGaze, t, ',');
-        append_row(text, face.head, TrackedFace::kHead, t, ',');
-        append_row(text, units, tables.units.size(), t, ',');
+        text += cells(row_of(face.gaze, TrackedFace::kGaze, t), ',');
+        text += cells(row_of(face.head, TrackedFace::kHead, t), ',');
+        text += cells(row_of(units, tables.units.size(), t), ',');
     }
     return text + "\n";
 }
@@ -46,7 +52,7 @@ std::string opensmile_table(const FeatureTrack& track, const std::vector<std::st
     std::string text = "name;frameTime;" + join(columns, ";");
     for (std::size_t t = 0; t < track.frames(); ++t) {
         text += format("\n'unknown';{:.3f}", static_cast<double>(t) / track.rate);
-        append_row(text, track.values, track.width(), t, ';');
+        text += cells(row_of(track.values, track.width(), t), ';');
     }
     return text + "\n";
 }

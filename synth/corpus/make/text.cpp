@@ -202,9 +202,9 @@ bool holds(const std::vector<std::string_view>& names, std::string_view name) {
 
 }  // namespace
 
-Sentence say(const Grammar& grammar, const Template& chosen, std::string_view topic, const Idiolect& idiolect,
-             Random& random) {
-    const std::string inside = polished(Filler(grammar, topic, idiolect, random).filled(chosen.text));
+Sentence say(const Grammar& grammar, const Template& chosen, const SentenceRequest& request, Random& random) {
+    const std::string inside =
+        polished(Filler(grammar, request.topic, request.idiolect, random).filled(chosen.text));
     const std::string weight = chosen.weight ? format(" weight=\"{}\"", *chosen.weight) : "";
     const bool rises = chosen.dialog_act.find("Yes-No") != std::string::npos ||
                        chosen.dialog_act.find("question") != std::string::npos;
@@ -226,7 +226,7 @@ Sentence say(const Grammar& grammar, const SentenceRequest& request, Random& ran
         weights.push_back(liking(request.idiolect, candidate.text));
     }
     assert(!fitting.empty());
-    return say(grammar, *fitting[draw(weights, random)], request.topic, request.idiolect, random);
+    return say(grammar, *fitting[draw(weights, random)], request, random);
 }
 
 std::string aplm_of(const std::vector<Sentence>& sentences) {

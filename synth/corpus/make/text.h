@@ -79,9 +79,8 @@ struct Sentence {
 // left.
 Sentence say(const Grammar& grammar, const SentenceRequest& request, Random& random);
 
-// Of one template with a topic's words; a test asks every one.
-Sentence say(const Grammar& grammar, const Template& chosen, std::string_view topic, const Idiolect& idiolect,
-             Random& random);
+// Of one template with the words of the topic and the idiolect that are asked for; a test asks every template.
+Sentence say(const Grammar& grammar, const Template& chosen, const SentenceRequest& request, Random& random);
 
 // A document that parse_marked_text reads.
 std::string aplm_of(const std::vector<Sentence>& sentences);

@@ -48,7 +48,8 @@ TEST(Grammar, MakesSentencesThatAreAplmOfEveryTemplateAboutEveryTopic) {
     for (const Template& chosen : bundled_grammar().templates) {
         for (const std::string& topic : topics_of(chosen)) {
             const Sentence sentence =
-                say(bundled_grammar(), chosen, topic, {.seed = 1, .temperature = 1}, random);
+                say(bundled_grammar(), chosen, {.topic = topic, .idiolect = {.seed = 1, .temperature = 1}},
+                    random);
             const MarkedText text = parse_marked_text({.text = aplm_of({sentence})}, MarkupLanguage::aplm);
             EXPECT_EQ(text.words.size(), sentence.words) << text.script;
             EXPECT_TRUE(text.notes.empty()) << text.script;
@@ -64,7 +65,8 @@ TEST(Grammar, MakesSentencesThatAreSpoken) {
     std::vector<Sentence> sentences;
     std::size_t words = 0;
     for (const Template& chosen : bundled_grammar().templates) {
-        sentences.push_back(say(bundled_grammar(), chosen, topics_of(chosen).front(), {.seed = 2}, random));
+        sentences.push_back(say(bundled_grammar(), chosen,
+                                {.topic = topics_of(chosen).front(), .idiolect = {.seed = 2}}, random));
         words += sentences.back().words;
     }
     const Speech speech = say_aloud(sentences, {.rate = 300});
@@ -77,7 +79,8 @@ std::string said(const std::string& text, std::uint64_t seed = 1) {
     Random random(seed);
     const Template own{
         .text = text, .genre = "common", .dialog_act = "Other", .performative = "inform", .weight = {}};
-    const Sentence sentence = say(bundled_grammar(), own, "cooking", {.seed = 1, .temperature = 3}, random);
+    const Sentence sentence =
+        say(bundled_grammar(), own, {.topic = "cooking", .idiolect = {.seed = 1, .temperature = 3}}, random);
     return parse_marked_text({.text = aplm_of({sentence})}).script;
 }
 
