@@ -13,11 +13,18 @@ double clamped_share(double value, const Feature& feature) {
     return std::clamp((value - feature.low) / (feature.high - feature.low), 0.0, 1.0);
 }
 
-DyadFrames::Person person_of(const DyadPerson& person, const std::vector<Feature>& face,
-                             const std::vector<Feature>& speech) {
+DyadFrames::Person person_of(const DyadPerson& person, const DyadFeatures& features) {
     return {.participant = person.participant,
-            .face = normalised(person.face, face),
-            .speech = normalised(person.speech, speech)};
+            .face = normalised(person.face, features.face),
+            .speech = normalised(person.speech, features.speech)};
+}
+
+std::vector<Feature> scaled_features(const std::vector<std::string>& names,
+                                     const std::vector<FeatureScale>& scales) {
+    std::vector<Feature> features;
+    for (std::size_t i = 0; i < names.size(); ++i)
+        features.push_back({.name = names[i], .low = scales[i].zero, .high = scales[i].one});
+    return features;
 }
 
 }  // namespace
@@ -26,13 +33,9 @@ std::vector<std::string> face_column_names() {
     return {"gaze_angle_x", "gaze_angle_y", "Rx", "Ry", "Rz", "AU1", "AU2", "AU4", "AU6", "AU12"};
 }
 
-std::vector<Feature> dyad_features(const CorpusStatistics& statistics, const std::string& array) {
-    const std::vector<std::string> names = array == "face" ? face_column_names() : speech_columns();
-    const std::vector<FeatureScale>& scales = statistics.of(array);
-    std::vector<Feature> features;
-    for (std::size_t i = 0; i < names.size(); ++i)
-        features.push_back({.name = names[i], .low = scales[i].zero, .high = scales[i].one});
-    return features;
+DyadFeatures dyad_features(const CorpusStatistics& statistics) {
+    return {.face = scaled_features(face_column_names(), statistics.of("face")),
+            .speech = scaled_features(speech_columns(), statistics.of("speech"))};
 }
 
 torch::Tensor normalised(const std::vector<float>& rows, const std::vector<Feature>& features) {
@@ -55,8 +58,8 @@ std::vector<float> denormalised(const torch::Tensor& rows, const std::vector<Fea
     return numbers;
 }
 
-std::vector<DyadFrames> read_dyads(const CorpusIndex& corpus, Split split, const std::vector<Feature>& face,
-                                   const std::vector<Feature>& speech, std::size_t least) {
+std::vector<DyadFrames> read_dyads(const CorpusIndex& corpus, Split split, const DyadFeatures& features,
+                                   std::size_t least) {
     std::vector<DyadFrames> dyads;
     for (const CorpusEntry& entry : corpus.of(split)) {
         const DyadRecord record = read_dyad(corpus, entry);
@@ -64,9 +67,9 @@ std::vector<DyadFrames> read_dyads(const CorpusIndex& corpus, Split split, const
             throw Error(format("{}: the dyad {} has {} frames, at least {} are needed; leave it out",
                                corpus.folder.string(), entry.id, record.frames(), least));
         }
-        dyads.push_back({.id = record.id,
-                         .people = {person_of(record.people[0], face, speech),
-                                    person_of(record.people[1], face, speech)}});
+        dyads.push_back(
+            {.id = record.id,
+             .people = {person_of(record.people[0], features), person_of(record.people[1], features)}});
     }
     if (dyads.empty()) {
         throw Error(

@@ -32,8 +32,12 @@ struct DyadFrames {
 // The columns of DyadPerson, by the names that predictions have.
 std::vector<std::string> face_column_names();
 
-// "face" and "speech" of both people as the inputs of a model, and "face" as its outputs.
-std::vector<Feature> dyad_features(const CorpusStatistics& statistics, const std::string& array);
+// The columns of both people: face and speech as the inputs of a model, and the face as its outputs.
+struct DyadFeatures {
+    std::vector<Feature> face;    // (10)
+    std::vector<Feature> speech;  // (16)
+};
+DyadFeatures dyad_features(const CorpusStatistics& statistics);
 
 // (T, features) in [0, 1] of numbers as records have them, and back.
 torch::Tensor normalised(const std::vector<float>& rows, const std::vector<Feature>& features);
@@ -41,8 +45,8 @@ std::vector<float> denormalised(const torch::Tensor& rows, const std::vector<Fea
 
 // Throws Error as reading the records does, if there are none in `split`, or if one is shorter than `least`
 // frames.
-std::vector<DyadFrames> read_dyads(const CorpusIndex& corpus, Split split, const std::vector<Feature>& face,
-                                   const std::vector<Feature>& speech, std::size_t least);
+std::vector<DyadFrames> read_dyads(const CorpusIndex& corpus, Split split, const DyadFeatures& features,
+                                   std::size_t least);
 
 // Where a window of `kWindow` frames begins; the frame after it is what is to be predicted.
 struct DyadWindow {

@@ -22,8 +22,6 @@ namespace {
 
 constexpr double kFps = 25;
 
-using Features = std::vector<Feature>;
-
 TrainingPlan plan_of(const DyadTraining& training, std::size_t batches) {
     return {.rate = {.kind = LearningRate::Kind::triangular,
                      .peak = training.peak,
@@ -35,14 +33,9 @@ TrainingPlan plan_of(const DyadTraining& training, std::size_t batches) {
 }
 
 // The description that a checkpoint of this training holds.
-Checkpoint described(const std::string& name, const std::string& preset, Json options, Features face,
-                     const Features& speech) {
-    Checkpoint checkpoint{.model = name,
-                          .preset = preset,
-                          .options = std::move(options),
-                          .inputs = speech,
-                          .outputs = std::move(face)};
-    if (name == "il-lstm") checkpoint.inputs.clear();
+Checkpoint with_features(Checkpoint checkpoint, const DyadFeatures& features) {
+    if (checkpoint.model != "il-lstm") checkpoint.inputs = features.speech;
+    checkpoint.outputs = features.face;
     checkpoint.inputs.insert(checkpoint.inputs.end(), checkpoint.outputs.begin(), checkpoint.outputs.end());
     return checkpoint;
 }
@@ -76,13 +69,12 @@ struct DyadSet {
     }
 };
 
-DyadSet dyad_set_of(const CorpusIndex& corpus, Split split, const CorpusStatistics& statistics,
+DyadSet dyad_set_of(const CorpusIndex& corpus, Split split, const DyadFeatures& features,
                     const DyadTraining& training) {
     const std::size_t least = kWindowFrames + (training.own_past > 0 ? 2 : 1);
     const std::size_t stride =
         split == Split::train ? training.stride : std::max<std::size_t>(20, training.stride);
-    DyadSet set{.dyads = read_dyads(corpus, split, dyad_features(statistics, "face"),
-                                    dyad_features(statistics, "speech"), least)};
+    DyadSet set{.dyads = read_dyads(corpus, split, features, least)};
     set.windows = windows_over(set.dyads, stride);
     return set;
 }
@@ -92,25 +84,30 @@ OwnPasts own_pasts_of(const DyadTraining& training) {
             .frames = static_cast<std::size_t>(std::max(1.0, std::round(training.own_seconds * kFps)))};
 }
 
-// Lets each epoch from `own_from` on make the windows that follow what the model predicts.
-void add_own_pasts(TrainingTask& task, DyadSet& train_set, const DyadModel& model,
-                   const DyadTraining& training, std::uint64_t seed, const fs::path& file) {
-    const auto plan = [&train_set, training, seed](std::size_t epoch) {
-        train_set.plan(epoch < training.own_from ? OwnPasts{} : own_pasts_of(training),
-                       Random(seed, kEpochStream + epoch));
-    };
-    task.make_examples = [&train_set, &model, plan](std::size_t epoch) -> Tensors {
+// The examples of each epoch: from `own_from` on there are windows that follow what the model predicts.
+struct EpochExamples {
+    DyadSet& set;
+    const DyadModel& model;
+    const DyadTraining& training;
+    std::uint64_t seed = 0;
+    const fs::path& file;  // of the checkpoint
+
+    void plan(std::size_t epoch) const {
+        set.plan(epoch < training.own_from ? OwnPasts{} : own_pasts_of(training),
+                 Random(seed, kEpochStream + epoch));
+    }
+    Tensors make(std::size_t epoch) const {
         plan(epoch);
-        train_set.run(model);
-        if (!train_set.has_runs()) return {};
-        return {{"faces", train_set.examples.faces}};
-    };
-    task.use_examples = [&train_set, plan, file](std::size_t epoch, const Tensors& made) {
+        set.run(model);
+        if (!set.has_runs()) return {};
+        return {{"faces", set.examples.faces}};
+    }
+    void use(std::size_t epoch, const Tensors& made) const {
         plan(epoch);
-        if (train_set.has_runs())
-            train_set.examples.faces = find_tensor(made, "faces", train_set.examples.shape_of_faces(), file);
-    };
-}
+        if (set.has_runs())
+            set.examples.faces = find_tensor(made, "faces", set.examples.shape_of_faces(), file);
+    }
+};
 
 Json train_dyads(const std::string& name, const JsonValue& job) {
     const JobRun run = begin_job(job);
@@ -118,12 +115,11 @@ Json train_dyads(const std::string& name, const JsonValue& job) {
     const DyadTraining training = dyad_training(preset, job_options(job));
     const DyadModel model = make_dyad_model(name, preset, job_options(job), run.seed);
     const CorpusIndex corpus = job_corpus(job, CorpusKind::dyads);
-    const CorpusStatistics statistics = read_statistics(corpus);
+    const DyadFeatures features = dyad_features(read_statistics(corpus));
     const Checkpoint description =
-        described(name, preset, all_options(model, training), dyad_features(statistics, "face"),
-                  dyad_features(statistics, "speech"));
-    DyadSet train_set = dyad_set_of(corpus, Split::train, statistics, training);
-    DyadSet validation_set = dyad_set_of(corpus, Split::validation, statistics, training);
+        with_features({.model = name, .preset = preset, .options = all_options(model, training)}, features);
+    DyadSet train_set = dyad_set_of(corpus, Split::train, features, training);
+    DyadSet validation_set = dyad_set_of(corpus, Split::validation, features, training);
     train_set.plan({}, Random(0));
     validation_set.plan(own_pasts_of(training), Random(run.seed, kValidationStream));
 
@@ -145,7 +141,12 @@ Json train_dyads(const std::string& name, const JsonValue& job) {
                 validation_set.run(model);
                 return mean_loss(model, validation_set.dyads, validation_set.examples);
             }};
-    if (training.own_past > 0) add_own_pasts(task, train_set, model, training, run.seed, file);
+    const EpochExamples examples{
+        .set = train_set, .model = model, .training = training, .seed = run.seed, .file = file};
+    if (training.own_past > 0) {
+        task.make_examples = [&](std::size_t epoch) { return examples.make(epoch); };
+        task.use_examples = [&](std::size_t epoch, const Tensors& made) { examples.use(epoch, made); };
+    }
     return training_answer(file, train(task, plan, description, file));
 }
 
@@ -153,7 +154,7 @@ Json train_dyads(const std::string& name, const JsonValue& job) {
 struct TrainedDyadModel {
     Checkpoint checkpoint;
     DyadModel model;
-    Features face, speech;
+    DyadFeatures features;
 };
 
 // The options of a checkpoint that made it, not those that a job may set.
@@ -172,15 +173,12 @@ TrainedDyadModel trained_model(const JsonValue& job) {
     check_fits(file, checkpoint, {.inputs = inputs, .outputs = face_column_names()});
     set_weights(*model.module, weights, file);
     model.module->eval();
-    Features speech(checkpoint.inputs.begin(), checkpoint.inputs.end() - DyadPerson::kFace);
+    DyadFeatures features{.face = checkpoint.outputs,
+                          .speech = {checkpoint.inputs.begin(), checkpoint.inputs.end() - DyadPerson::kFace}};
     // A model without speech inputs takes speech of any scale.
-    if (speech.empty())
-        for (const std::string& column : speech_columns()) speech.push_back({.name = column});
-    Features face = checkpoint.outputs;
-    return {.checkpoint = std::move(checkpoint),
-            .model = std::move(model),
-            .face = std::move(face),
-            .speech = std::move(speech)};
+    if (features.speech.empty())
+        for (const std::string& column : speech_columns()) features.speech.push_back({.name = column});
+    return {.checkpoint = std::move(checkpoint), .model = std::move(model), .features = std::move(features)};
 }
 
 PersonTrack track_of(const DyadFrames::Person& person) {
@@ -198,7 +196,7 @@ std::vector<float> from_frame(const std::vector<float>& face, std::size_t frame)
 struct DyadPredictor {
     std::string name;
     std::function<DyadStep()> start;
-    Features face, speech;
+    DyadFeatures features;
 };
 
 Json predict_dyads(const DyadPredictor& predictor, const JsonValue& job, const JobRun& run) {
@@ -209,21 +207,22 @@ Json predict_dyads(const DyadPredictor& predictor, const JsonValue& job, const J
         seconds ? std::max(1.0, std::round(seconds->number(1 / kFps, 1e6) * kFps)) : 0.0);
     const CorpusIndex corpus = job_corpus(job, CorpusKind::dyads);
     const Split split = job_split(job);
-    const auto dyads = read_dyads(corpus, split, predictor.face, predictor.speech, kWindowFrames + 1);
+    const auto dyads = read_dyads(corpus, split, predictor.features, kWindowFrames + 1);
     Predictions predictions = empty_predictions(predictor.name, corpus, split);
     predictions.fps = kFps;
     predictions.features = face_column_names();
-    for (const Feature& feature : predictor.face) predictions.scale.push_back({feature.low, feature.high});
+    for (const Feature& feature : predictor.features.face)
+        predictions.scale.push_back({feature.low, feature.high});
     Progress progress("predicting", "faces", 2 * dyads.size(), run.quiet);
     for (const DyadFrames& dyad : dyads) {
         for (const std::size_t person : {0, 1}) {
-            const PersonTrack a = track_of(dyad.people[person]), u = track_of(dyad.people[1 - person]);
+            const DyadTrack track{.a = track_of(dyad.people[person]), .u = track_of(dyad.people[1 - person])};
             predictions.items.push_back(
                 {.id = format("{}:{}", dyad.id, person),
                  .speaker = dyad.people[person].participant,
-                 .truth = from_frame(a.face, kWindowFrames),
-                 .prediction = roll_out(predictor.start(), a, u, kWindowFrames, horizon),
-                 .partner = from_frame(u.face, kWindowFrames)});
+                 .truth = from_frame(track.a.face, kWindowFrames),
+                 .prediction = roll_out(predictor.start(), track, kWindowFrames, horizon),
+                 .partner = from_frame(track.u.face, kWindowFrames)});
             progress.step();
         }
     }
@@ -235,25 +234,22 @@ Json predict_dyads(const DyadPredictor& predictor, const JsonValue& job, const J
 Json predict_with_checkpoint(const JsonValue& job) {
     const JobRun run = begin_job(job);
     const TrainedDyadModel trained = trained_model(job);
-    return predict_dyads({.name = shown_name(trained.checkpoint),
-                          .start = trained.model.start,
-                          .face = trained.face,
-                          .speech = trained.speech},
-                         job, run);
+    return predict_dyads(
+        {.name = shown_name(trained.checkpoint), .start = trained.model.start, .features = trained.features},
+        job, run);
 }
 
 Json predict_hold(const JsonValue& job) {
     const JobRun run = begin_job(job);
-    const CorpusStatistics statistics = read_statistics(job_corpus(job, CorpusKind::dyads));
+    const CorpusIndex corpus = job_corpus(job, CorpusKind::dyads);
     return predict_dyads({.name = "hold",
                           .start = [] { return DyadStep(hold_face); },
-                          .face = dyad_features(statistics, "face"),
-                          .speech = dyad_features(statistics, "speech")},
+                          .features = dyad_features(read_statistics(corpus))},
                          job, run);
 }
 
 // (T, columns) of an inputs file, normalised.
-std::vector<float> input_rows(const Hdf5File& file, const char* name, const Features& features,
+std::vector<float> input_rows(const Hdf5File& file, const char* name, const std::vector<Feature>& features,
                               std::size_t frames) {
     const std::vector<double> rows = file.read_numbers(name, {frames, features.size()});
     const torch::Tensor scaled = normalised(std::vector<float>(rows.begin(), rows.end()), features);
@@ -272,6 +268,7 @@ std::vector<float> led_in(const std::vector<float>& rows, std::size_t columns) {
 Json animate_dyad(const JsonValue& job) {
     begin_job(job);
     const TrainedDyadModel trained = trained_model(job);
+    const DyadFeatures& features = trained.features;
     const fs::path inputs = job.at("inputs").text(), out = job.at("out").text();
     const std::vector<std::byte> bytes = read_bytes(inputs);
     const Hdf5File file(bytes, inputs.string());
@@ -279,20 +276,21 @@ Json animate_dyad(const JsonValue& job) {
     const std::size_t frames = file.shape_of("speech").at(0);
     if (frames == 0) file.refuse("\"speech\" has no frames; give it at least one");
     const std::vector<float> neutral(DyadPerson::kFace * frames, 0.0f);
-    const torch::Tensor rest = normalised(neutral, trained.face);
-    const PersonTrack a{
-        .face = led_in({rest.data_ptr<float>(), rest.data_ptr<float>() + rest.numel()}, DyadPerson::kFace),
-        .speech = led_in(input_rows(file, "speech", trained.speech, frames), DyadPerson::kSpeech)};
-    const PersonTrack u{
-        .face = led_in(input_rows(file, "user/face", trained.face, frames), DyadPerson::kFace),
-        .speech = led_in(input_rows(file, "user/speech", trained.speech, frames), DyadPerson::kSpeech)};
-    const std::vector<float> predicted = roll_out(trained.model.start(), a, u, kWindowFrames, 0);
+    const torch::Tensor rest = normalised(neutral, features.face);
+    const DyadTrack dyad{
+        .a = {.face =
+                  led_in({rest.data_ptr<float>(), rest.data_ptr<float>() + rest.numel()}, DyadPerson::kFace),
+              .speech = led_in(input_rows(file, "speech", features.speech, frames), DyadPerson::kSpeech)},
+        .u = {
+            .face = led_in(input_rows(file, "user/face", features.face, frames), DyadPerson::kFace),
+            .speech = led_in(input_rows(file, "user/speech", features.speech, frames), DyadPerson::kSpeech)}};
+    const std::vector<float> predicted = roll_out(trained.model.start(), dyad, kWindowFrames, 0);
     const torch::Tensor face =
         torch::from_blob(const_cast<float*>(predicted.data()),
                          {static_cast<int64_t>(frames), static_cast<int64_t>(DyadPerson::kFace)});
     PendingOutput pending(out, PendingOutput::Kind::file);
     Hdf5Writer writer(pending.path(), out.string());
-    writer.write_floats("face", {frames, DyadPerson::kFace}, denormalised(face, trained.face));
+    writer.write_floats("face", {frames, DyadPerson::kFace}, denormalised(face, features.face));
     writer.write_texts("features", face_column_names());
     writer.write_number("fps", kFps);
     writer.close();

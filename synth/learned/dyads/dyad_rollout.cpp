@@ -3,10 +3,10 @@
 #include <algorithm>
 
 namespace chironomia {
-namespace {}  // namespace
 
-std::vector<float> roll_out(const DyadStep& step, const PersonTrack& a, const PersonTrack& u,
-                            std::size_t begin, std::size_t horizon) {
+std::vector<float> roll_out(const DyadStep& step, const DyadTrack& dyad, std::size_t begin,
+                            std::size_t horizon) {
+    const auto& [a, u] = dyad;
     std::vector<float> past = a.face;
     std::vector<float> predicted;
     for (std::size_t frame = begin; frame < a.frames(); ++frame) {

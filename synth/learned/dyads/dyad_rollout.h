@@ -36,11 +36,16 @@ struct PersonTrack {
     std::size_t frames() const { return face.size() / DyadPerson::kFace; }
 };
 
-// (T - begin, 10): A's face in the frames from `begin` on, in [0, 1]. Before, it is what `a` has; after, what
-// was predicted.
-//   horizon  frames after which A's past becomes what `a` has again; 0: never
-std::vector<float> roll_out(const DyadStep& step, const PersonTrack& a, const PersonTrack& u,
-                            std::size_t begin, std::size_t horizon);
+// A, whose face is predicted, and the partner U.
+struct DyadTrack {
+    PersonTrack a, u;
+};
+
+// (T - begin, 10): A's face in the frames from `begin` on, in [0, 1]. Before, it is what `dyad.a` has; after,
+// what was predicted.
+//   horizon  frames after which A's past becomes what `dyad.a` has again; 0: never
+std::vector<float> roll_out(const DyadStep& step, const DyadTrack& dyad, std::size_t begin,
+                            std::size_t horizon);
 
 // The face stays as it was last seen.
 FaceFrame hold_face(const DyadPast& past, bool restarted);

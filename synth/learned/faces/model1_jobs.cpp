@@ -107,39 +107,6 @@ Restored restore(ContourAutoencoder& autoencoder, const Contours& contours) {
     return {squares / std::max(count, 1.0), hits / std::max(count, 1.0)};
 }
 
-// What an auto-encoder learns, and where it is kept.
-struct PreNet {
-    std::string part;  // "speech", "face", "face-AU1"
-    Contours train, validation;
-    std::size_t batch = 128;  // contours
-};
-
-// By eq. (5.3).
-Json train_pre_net(ContourAutoencoder& autoencoder, const PreNet& net, const TrainingPlan& plan,
-                   Checkpoint described, const fs::path& out) {
-    described.model = "model1-" + net.part;
-    const TrainingTask task{
-        .model = autoencoder.get(),
-        .unit = "contours of " + net.part,
-        .examples = net.train.size(),
-        .batches = [&](Random& random) { return shuffled_batches(net.train.size(), net.batch, random); },
-        .loss =
-            [&](const Batch& chosen) {
-                const PackedContours batch = pack(net.train, chosen);
-                return torch::nn::functional::mse_loss(autoencoder->forward(batch.values, batch.packed),
-                                                       batch.values);
-            },
-        .validation_loss = [&] { return restore(autoencoder, net.validation).loss; }};
-    fs::path file = checkpoint_stem(out);
-    file += "-" + net.part;
-    const TrainingResult result = train(task, plan, described, file);
-    const torch::NoGradGuard no_gradients;
-    autoencoder->eval();
-    return {{"steps", result.steps},
-            {"validation_loss", result.validation_loss},
-            {"accuracy", restore(autoencoder, net.validation).accuracy}};
-}
-
 // Everything that the steps of a training share.
 struct Model1Job {
     const JsonValue& job;
@@ -163,6 +130,39 @@ struct Model1Job {
     }
 };
 
+// What an auto-encoder learns, and where it is kept.
+struct PreNet {
+    std::string part;  // "speech", "face", "face-AU1"
+    Contours train, validation;
+    LearningSize size;  // in contours
+};
+
+// By eq. (5.3).
+Json train_pre_net(const Model1Job& asked, ContourAutoencoder& autoencoder, const PreNet& net) {
+    Checkpoint described = asked.described;
+    described.model = "model1-" + net.part;
+    const TrainingTask task{
+        .model = autoencoder.get(),
+        .unit = "contours of " + net.part,
+        .examples = net.train.size(),
+        .batches = [&](Random& random) { return shuffled_batches(net.train.size(), net.size.batch, random); },
+        .loss =
+            [&](const Batch& chosen) {
+                const PackedContours batch = pack(net.train, chosen);
+                return torch::nn::functional::mse_loss(autoencoder->forward(batch.values, batch.packed),
+                                                       batch.values);
+            },
+        .validation_loss = [&] { return restore(autoencoder, net.validation).loss; }};
+    fs::path file = checkpoint_stem(asked.out);
+    file += "-" + net.part;
+    const TrainingResult result = train(task, asked.pre_net_plan(net.size), described, file);
+    const torch::NoGradGuard no_gradients;
+    autoencoder->eval();
+    return {{"steps", result.steps},
+            {"validation_loss", result.validation_loss},
+            {"accuracy", restore(autoencoder, net.validation).accuracy}};
+}
+
 // One for all nine channels, or one for each of them (A35).
 std::vector<ContourAutoencoder> face_autoencoders(const Model1Options& options) {
     std::vector<ContourAutoencoder> faces;
@@ -175,20 +175,21 @@ std::vector<ContourAutoencoder> face_autoencoders(const Model1Options& options) 
 Json train_pre_nets(const Model1Job& asked, ContourAutoencoder& speech,
                     std::vector<ContourAutoencoder>& faces) {
     const FaceCorpus& corpus = asked.corpus;
-    const LearningSize& of_speech = asked.training.speech;
-    const LearningSize& of_face = asked.training.face;
     Json answer;
-    answer["speech"] = train_pre_net(
-        speech, {"speech", pitch_contours(corpus.train), pitch_contours(corpus.validation), of_speech.batch},
-        asked.pre_net_plan(of_speech), asked.described, asked.out);
+    answer["speech"] = train_pre_net(asked, speech,
+                                     {.part = "speech",
+                                      .train = pitch_contours(corpus.train),
+                                      .validation = pitch_contours(corpus.validation),
+                                      .size = asked.training.speech});
     const std::size_t channels = kFaceChannels / faces.size();
     for (std::size_t i = 0; i < faces.size(); ++i) {
         const std::size_t first = i * channels, past = first + channels;
         const std::string part = faces.size() > 1 ? format("face-{}", kFaceChannelNames[i]) : "face";
-        answer[part] = train_pre_net(faces[i],
-                                     {part, face_contours(corpus.train, first, past),
-                                      face_contours(corpus.validation, first, past), of_face.batch},
-                                     asked.pre_net_plan(of_face), asked.described, asked.out);
+        answer[part] = train_pre_net(asked, faces[i],
+                                     {.part = part,
+                                      .train = face_contours(corpus.train, first, past),
+                                      .validation = face_contours(corpus.validation, first, past),
+                                      .size = asked.training.face});
     }
     return answer;
 }

@@ -127,8 +127,8 @@ Tensor FaceDecodersImpl::step(Memory& memory, const Tensor& embedded) {
     const Tensor row = near.size(2) > 1 ? near.narrow(2, now, 1) : near;
     const Tensor past = row.size(3) > 1 ? row.narrow(3, 0, now + 1) : row;
     for (std::size_t i = 0; i < layers_->size(); ++i) {
-        state = layers_[i]->as<DecoderLayer>()->step(state, memory.past[i], memory.attended[i], past,
-                                                     memory.words.padding + row);
+        state = layers_[i]->as<DecoderLayer>()->step(state, memory.past[i], past,
+                                                     {memory.attended[i], memory.words.padding + row});
     }
     return state;
 }

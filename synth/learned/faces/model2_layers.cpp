@@ -94,25 +94,25 @@ DecoderLayerImpl::DecoderLayerImpl(const LayerSize& size)
       dropout_(register_module("dropout", torch::nn::Dropout(size.dropout))) {}
 
 // The sub-layers after the first.
-Tensor DecoderLayerImpl::finish(const Tensor& x, const Attended& memory, const Tensor& memory_mask) {
+Tensor DecoderLayerImpl::finish(const Tensor& x, const SeenMemory& memory) {
     const Tensor seen =
-        norm2->forward(x + dropout_->forward(memory_attention->forward(x, memory, memory_mask)));
+        norm2->forward(x + dropout_->forward(memory_attention->forward(x, memory.to, memory.mask)));
     return norm3->forward(seen + dropout_->forward(feed->forward(seen)));
 }
 
 Tensor DecoderLayerImpl::forward(const Tensor& x, const Tensor& memory, const Tensor& self_mask,
                                  const Tensor& memory_mask) {
     const Tensor seen = norm1->forward(x + dropout_->forward(self->forward(x, self->project(x), self_mask)));
-    return finish(seen, memory_attention->project(memory), memory_mask);
+    return finish(seen, {.to = memory_attention->project(memory), .mask = memory_mask});
 }
 
-Tensor DecoderLayerImpl::step(const Tensor& x, Attended& past, const Attended& memory,
-                              const Tensor& self_mask, const Tensor& memory_mask) {
+Tensor DecoderLayerImpl::step(const Tensor& x, Attended& past, const Tensor& self_mask,
+                              const SeenMemory& memory) {
     const Attended now = self->project(x);
     past.keys = past.keys.defined() ? torch::cat({past.keys, now.keys}, 3) : now.keys;
     past.values = past.values.defined() ? torch::cat({past.values, now.values}, 3) : now.values;
     const Tensor seen = norm1->forward(x + dropout_->forward(self->forward(x, past, self_mask)));
-    return finish(seen, memory, memory_mask);
+    return finish(seen, memory);
 }
 
 RowConvolutionsImpl::RowConvolutionsImpl(int64_t in, int64_t width)

@@ -53,6 +53,12 @@ struct Attended {
     torch::Tensor keys, values;
 };
 
+// What is attended to, and which of it may be seen.
+struct SeenMemory {
+    const Attended& to;
+    torch::Tensor mask;  // as of GroupedAttention
+};
+
 class GroupedAttentionImpl : public torch::nn::Module {
   public:
     explicit GroupedAttentionImpl(const LayerSize& size);
@@ -105,16 +111,16 @@ class DecoderLayerImpl : public torch::nn::Module {
     torch::Tensor forward(const torch::Tensor& x, const torch::Tensor& memory, const torch::Tensor& self_mask,
                           const torch::Tensor& memory_mask);
 
-    // The same, one position after another: `past` grows by each; `memory` is memory_attention->project().
-    torch::Tensor step(const torch::Tensor& x, Attended& past, const Attended& memory,
-                       const torch::Tensor& self_mask, const torch::Tensor& memory_mask);
+    // The same, one position after another: `past` grows by each; `memory.to` is memory_attention->project().
+    torch::Tensor step(const torch::Tensor& x, Attended& past, const torch::Tensor& self_mask,
+                       const SeenMemory& memory);
 
     GroupedAttention self{nullptr}, memory_attention{nullptr};
     GroupedFeedForward feed{nullptr};
     GroupedNorm norm1{nullptr}, norm2{nullptr}, norm3{nullptr};
 
   private:
-    torch::Tensor finish(const torch::Tensor& x, const Attended& memory, const torch::Tensor& memory_mask);
+    torch::Tensor finish(const torch::Tensor& x, const SeenMemory& memory);
 
     torch::nn::Dropout dropout_{nullptr};
 };

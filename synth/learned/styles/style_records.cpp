@@ -38,21 +38,27 @@ FeatureScale scale_of(const Feature& feature) {
     return {.zero = feature.low, .one = feature.high};
 }
 
+// Points of an interval, (T, 2 count): the x of all, then their y.
+struct SeenPoints {
+    const std::vector<float>& places;
+    const std::vector<float>& confidence;  // 0: lost
+    std::size_t count = 0;
+};
+
 // (T, 2 N) of the chosen points, those that were lost on the line between the frames that have them. A point that no
 // frame has stays where its mean is.
 template <std::size_t N>
-std::vector<float> chosen_points(const std::vector<float>& places, const std::vector<float>& confidence,
-                                 const std::array<std::size_t, N>& chosen,
-                                 const std::vector<FeatureScale>& scales, std::size_t points) {
-    const std::size_t frames = places.size() / (2 * points);
+std::vector<float> chosen_points(const SeenPoints& points, const std::array<std::size_t, N>& chosen,
+                                 const std::vector<FeatureScale>& scales) {
+    const std::size_t width = 2 * points.count, frames = points.places.size() / width;
     std::vector<float> rows(frames * 2 * N);
     for (std::size_t column = 0; column < 2 * N; ++column) {
-        const std::size_t from = (column / N) * points + chosen[column % N];
+        const std::size_t from = (column / N) * points.count + chosen[column % N];
         std::vector<float> values(frames);
         std::vector<std::uint8_t> seen(frames);
         for (std::size_t t = 0; t < frames; ++t) {
-            values[t] = places[t * 2 * points + from];
-            seen[t] = confidence[t * 2 * points + from] > 0;
+            values[t] = points.places[t * width + from];
+            seen[t] = points.confidence[t * width + from] > 0;
         }
         const auto bridged = bridge_gaps({.values = values, .width = 1, .success = seen});
         for (std::size_t t = 0; t < frames; ++t)
@@ -165,19 +171,16 @@ StyleRecord style_record(const IntervalRecord& record, const StyleForm& form) {
             normalised_rows(mel_rows(record, form), {&scales.mel, 1}).view({frames, -1}).to(torch::kHalf);
     }
     if (!scales.text.empty()) taken.text = normalised_rows(record.vectors, scales.text).to(torch::kHalf);
-    taken.pose = normalised_rows(chosen_points(record.pose_normalized, record.pose_confidence, kStyleJoints,
-                                               scales.pose, IntervalRecord::kJoints),
-                                 scales.pose);
+    const SeenPoints pose{record.pose_normalized, record.pose_confidence, IntervalRecord::kJoints};
+    taken.pose = normalised_rows(chosen_points(pose, kStyleJoints, scales.pose), scales.pose);
     if (!scales.face.empty()) {
         if (record.face.empty() || record.dialog_acts.empty()) {
             throw Error(
                 format("{}: the interval has no {}, which this model needs; leave it out, or train zs-mstm-1",
                        record.id, record.face.empty() ? "points of the face" : "dialog acts"));
         }
-        taken.face =
-            normalised_rows(chosen_points(record.face_normalized, record.face_confidence, kStyleFacePoints,
-                                          scales.face, IntervalRecord::kFacePoints),
-                            scales.face);
+        const SeenPoints face{record.face_normalized, record.face_confidence, IntervalRecord::kFacePoints};
+        taken.face = normalised_rows(chosen_points(face, kStyleFacePoints, scales.face), scales.face);
         taken.acts = torch::tensor(std::vector<std::uint8_t>(record.dialog_acts)).view({frames, kStyleActs});
     }
     return taken;

@@ -13,7 +13,15 @@ namespace {
 
 constexpr double kWidth = 640, kHeight = 360;
 constexpr double kLeft = 72, kRight = 16, kTop = 40, kBottom = 44;  // of the plot, from the edges
-constexpr const char* kInk[] = {"#1f77b4", "#d95f02"};              // train, validation
+
+// A line of the plot.
+struct Loss {
+    const char* name;
+    const char* ink;
+    double CurvePoint::*value;
+};
+constexpr Loss kLosses[] = {{"training", "#1f77b4", &CurvePoint::train},
+                            {"validation", "#d95f02", &CurvePoint::validation}};
 
 // Where a number lies on an axis between the two ends of the plot [px].
 struct Axis {
@@ -93,31 +101,33 @@ std::string drawn_axes(const Axis& steps, const Axis& losses) {
 }
 
 std::string drawn_line(const Axis& steps, const Axis& losses, const std::vector<CurvePoint>& curve,
-                       double CurvePoint::*loss, const char* ink) {
+                       const Loss& loss) {
     std::string points;
     for (const CurvePoint& point : curve) {
-        points += format("{:.1f},{:.1f} ", steps.at(static_cast<double>(point.step)), losses.at(point.*loss));
+        points +=
+            format("{:.1f},{:.1f} ", steps.at(static_cast<double>(point.step)), losses.at(point.*loss.value));
     }
     std::string svg = format(R"(<polyline points="{}" stroke="{}"/>)"
                              "\n",
-                             trim(points), ink);
+                             trim(points), loss.ink);
     if (curve.size() == 1) {
-        svg += format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>)"
-                      "\n",
-                      steps.at(static_cast<double>(curve[0].step)), losses.at(curve[0].*loss), ink);
+        svg +=
+            format(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>)"
+                   "\n",
+                   steps.at(static_cast<double>(curve[0].step)), losses.at(curve[0].*loss.value), loss.ink);
     }
     return svg;
 }
 
 std::string legend() {
-    constexpr const char* kNames[] = {"training", "validation"};
     std::string svg;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const double x = kWidth - kRight - 180 + 90 * static_cast<double>(i);
+    double x = kWidth - kRight - 180;
+    for (const Loss& loss : kLosses) {
         svg += format(R"(<path d="M{:.1f} 22h18" stroke="{}"/>)"
                       "\n",
-                      x, kInk[i]);
-        svg += label(x + 23, 26, "start", kNames[i]);
+                      x, loss.ink);
+        svg += label(x + 23, 26, "start", loss.name);
+        x += 90;
     }
     return svg;
 }
@@ -140,8 +150,7 @@ std::string draw_loss_curve(const std::string& title, const std::vector<CurvePoi
                          .end = kWidth - kRight};
         const Axis losses = loss_axis(curve);
         svg += drawn_axes(steps, losses) + legend();
-        svg += drawn_line(steps, losses, curve, &CurvePoint::train, kInk[0]);
-        svg += drawn_line(steps, losses, curve, &CurvePoint::validation, kInk[1]);
+        for (const Loss& loss : kLosses) svg += drawn_line(steps, losses, curve, loss);
     }
     return svg + "</svg>\n";
 }

@@ -123,14 +123,14 @@ TEST(Amii, LetsTheLossReachEveryWeight) {
 // What U does from frame 110 on reaches A's face of frame 111, and not before.
 TEST(Amii, KnowsNothingOfTheUserThatHasNotHappened) {
     Random random(5);
-    const PersonTrack a = random_track(115, random), u = random_track(115, random);
-    PersonTrack other = u;
-    for (std::size_t i = 110 * 10; i < other.face.size(); ++i) other.face[i] = 1 - other.face[i];
-    for (std::size_t i = 110 * 16; i < other.speech.size(); ++i) other.speech[i] = 1 - other.speech[i];
+    const DyadTrack dyad{.a = random_track(115, random), .u = random_track(115, random)};
+    DyadTrack other = dyad;
+    for (std::size_t i = 110 * 10; i < other.u.face.size(); ++i) other.u.face[i] = 1 - other.u.face[i];
+    for (std::size_t i = 110 * 16; i < other.u.speech.size(); ++i) other.u.speech[i] = 1 - other.u.speech[i];
     const Json none = Json::object();
     const DyadStep step = make_dyad_model("amii", "paper", JsonValue(none, "options"), 11).start();
-    const std::vector<float> before = roll_out(step, a, u, 100, 0);
-    const std::vector<float> after = roll_out(step, a, other, 100, 0);
+    const std::vector<float> before = roll_out(step, dyad, 100, 0);
+    const std::vector<float> after = roll_out(step, other, 100, 0);
     for (std::size_t i = 0; i < 11 * 10; ++i) ASSERT_EQ(before[i], after[i]) << "frame " << 100 + i / 10;
     float change = 0;
     for (std::size_t i = 11 * 10; i < 12 * 10; ++i) change = std::max(change, std::abs(before[i] - after[i]));
@@ -139,14 +139,13 @@ TEST(Amii, KnowsNothingOfTheUserThatHasNotHappened) {
 
 TEST(Amii, LearnsOneBatchByHeart) {
     use_threads(1);
-    const CorpusStatistics statistics = statistics_for_waves();
-    const auto face = dyad_features(statistics, "face"), speech = dyad_features(statistics, "speech");
+    const DyadFeatures features = dyad_features(statistics_for_waves());
     const DyadRecord record = testing::following_dyad("d", "p", "q", 220, 0);
     DyadFrames dyad{.id = "d"};
     for (const std::size_t p : {0, 1})
         dyad.people[p] = {.participant = record.people[p].participant,
-                          .face = normalised(record.people[p].face, face),
-                          .speech = normalised(record.people[p].speech, speech)};
+                          .face = normalised(record.people[p].face, features.face),
+                          .speech = normalised(record.people[p].speech, features.speech)};
     const WindowBatch batch = batch_of({dyad}, windows_over({dyad}, 15));
     Amii model = make({});
     Optimiser optimiser({}, *model);
@@ -195,13 +194,13 @@ TEST(Amii, AttendsAndRemembersAsPyTorchDoes) {
 }
 
 TEST(DyadFrames, CutsWindowsAndWhatFollowsThem) {
-    const CorpusStatistics statistics = statistics_for_waves();
-    const auto face = dyad_features(statistics, "face"), speech = dyad_features(statistics, "speech");
+    const DyadFeatures features = dyad_features(statistics_for_waves());
     DyadFrames dyad{.id = "d"};
     for (const std::size_t p : {0, 1}) {
         std::vector<float> rows(104 * 10), words(104 * 16);
         for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<float>(i / 10 + 200 * p) / 200;
-        dyad.people[p] = {.face = normalised(rows, face), .speech = normalised(words, speech)};
+        dyad.people[p] = {.face = normalised(rows, features.face),
+                          .speech = normalised(words, features.speech)};
     }
     const auto windows = windows_over({dyad}, 2);
     ASSERT_EQ(windows.size(), 2u);
@@ -225,7 +224,8 @@ TEST(DyadFrames, HoldsWhatIsOutsideAndGivesBackWhatIsInside) {
 }
 
 TEST(Rollout, FeedsBackWhatItPredictedUntilItStartsAnew) {
-    PersonTrack a{.face = std::vector<float>(60, 0.25f), .speech = std::vector<float>(96, 0)}, u = a;
+    const PersonTrack track{.face = std::vector<float>(60, 0.25f), .speech = std::vector<float>(96, 0)};
+    DyadTrack dyad{.a = track, .u = track};
     const DyadStep adds = [](const DyadPast& past, bool restarted) {
         FaceFrame face = hold_face(past, restarted);
         for (float& value : face) value += 0.125f;
@@ -236,11 +236,11 @@ TEST(Rollout, FeedsBackWhatItPredictedUntilItStartsAnew) {
         for (std::size_t i = 0; i < rows.size(); i += 10) column.push_back(rows[i]);
         return column;
     };
-    EXPECT_EQ(first_column(roll_out(adds, a, u, 2, 0)), (std::vector<float>{0.375, 0.5, 0.625, 0.75}));
-    EXPECT_EQ(first_column(roll_out(adds, a, u, 2, 2)), (std::vector<float>{0.375, 0.5, 0.375, 0.5}));
-    EXPECT_EQ(first_column(roll_out(hold_face, a, u, 2, 0)), (std::vector<float>(4, 0.25f)));
-    for (float& value : a.face) value = 0.9f;
-    EXPECT_EQ(first_column(roll_out(adds, a, u, 2, 0)), (std::vector<float>(4, 1.0f)));
+    EXPECT_EQ(first_column(roll_out(adds, dyad, 2, 0)), (std::vector<float>{0.375, 0.5, 0.625, 0.75}));
+    EXPECT_EQ(first_column(roll_out(adds, dyad, 2, 2)), (std::vector<float>{0.375, 0.5, 0.375, 0.5}));
+    EXPECT_EQ(first_column(roll_out(hold_face, dyad, 2, 0)), (std::vector<float>(4, 0.25f)));
+    for (float& value : dyad.a.face) value = 0.9f;
+    EXPECT_EQ(first_column(roll_out(adds, dyad, 2, 0)), (std::vector<float>(4, 1.0f)));
 }
 
 }  // namespace

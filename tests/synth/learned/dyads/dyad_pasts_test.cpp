@@ -127,8 +127,10 @@ TEST(DyadPasts, RunAsModelsRunFreely) {
                 const FreeRun& run = examples.runs[i];
                 const auto& people = dyads[run.dyad].people;
                 const std::vector<float> alone =
-                    roll_out(model.start(), track_of(people[static_cast<std::size_t>(person)]),
-                             track_of(people[static_cast<std::size_t>(1 - person)]), run.begin, 0);
+                    roll_out(model.start(),
+                             {track_of(people[static_cast<std::size_t>(person)]),
+                              track_of(people[static_cast<std::size_t>(1 - person)])},
+                             run.begin, 0);
                 const Tensor expected =
                     torch::tensor(std::vector<float>(alone.begin(), alone.begin() + 200)).view({20, 10});
                 EXPECT_TRUE(torch::allclose(examples.faces[person][static_cast<std::int64_t>(i)], expected,

@@ -84,8 +84,8 @@ TEST(Model2Layers, ADecoderLayerGivesTheSameStepByStep) {
     const Attended memory = layer->memory_attention->project(block.at("memory"));
     Attended past;
     for (int64_t i = 0; i < 5; ++i) {
-        const Tensor y = layer->step(block.at("x").narrow(2, i, 1), past, memory, torch::zeros({1, 1, 1, 1}),
-                                     block_padding());
+        const Tensor y = layer->step(block.at("x").narrow(2, i, 1), past, torch::zeros({1, 1, 1, 1}),
+                                     {memory, block_padding()});
         EXPECT_LT(distance(y, block.at("y").narrow(2, i, 1)), kParity) << "word " << i;
     }
 }
