@@ -127,7 +127,7 @@ Owned<AVCodecContext> make_h264_encoder(const ClipSpec& spec) {
     set_option(*encoder, "preset", spec.preset);
     set_option(*encoder, "profile", "high");
     set_option(*encoder, "crf", std::to_string(spec.crf));
-    // Without "cpu-independent" its AVX-512 code lets memory that was never written decide on quantisers.
+    // Without "cpu-independent" x264's AVX-512 code lets memory that was never written decide on quantisers.
     set_option(*encoder, "x264-params", "lookahead-threads=1:cpu-independent=1");
     open_encoder(*encoder);
     return encoder;

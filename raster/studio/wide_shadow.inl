@@ -1,7 +1,7 @@
 // Soft shadows at vertices. Included after wide.inl.
 
-// Places on a surface in the grid of the map: x, y in texels, depth in [0, 1], and how the depth of the surface's plane
-// changes per texel.
+// Places that may lie in shadow, in the grid of the map: x, y in texels, depth in [0, 1], and how the depth of the
+// surface's plane changes per texel.
 struct Takers {
     Float x, y, depth, slope_x, slope_y;
 };
@@ -40,7 +40,7 @@ struct WideShadow {
         return plane - Float(hn::GatherIndex(FloatTag(), map.depth.data(), place));
     }
 
-    // Of the penumbra that a caster draws from this height [m].
+    // How wide the penumbra of a caster at this height over the surface is [m].
     HWY_INLINE Float radius_under(Float height) const {
         const Penumbra& penumbra = search.penumbra;
         return clamp(height * Float(penumbra.spread), penumbra.least, penumbra.most);

@@ -39,8 +39,9 @@ struct SolvedFrame {
 //   feet             heel and toe, or ankle and toe
 // clang-format on
 // A limb rolls about its upper bone as roll_limb() (skinning/lift/limb_roll.h) finds it for all frames at once, because
-// a limb that is nearly straight does not show it; feet without toes go along. What the keypoints lack keeps its rest
-// pose. Every joint stays within limit_posture(). The landmarks must have both shoulders. `fps` is above 0.
+// a limb that is nearly straight does not show it; feet without toes go along. An elbow or knee that is missing has a
+// default swivel; all else that the keypoints lack keeps its rest pose. Every joint stays within limit_posture(). The
+// landmarks must have both shoulders. `fps` is above 0.
 std::vector<SolvedFrame> solve_keypoints(const LandmarkTrack& landmarks, const PostureRig& rig, double fps);
 
 }  // namespace chironomia

@@ -15,7 +15,7 @@ namespace chironomia::study {
 Json open_pages(const Json& pages);
 
 // The pages of a sheet in their order, each with its videos from left to right as shown. Each showing of a
-// video has a name of its own, so that nobody sees which videos come only once. Those of checks do.
+// video has a name of its own: the videos of attention checks come only once, which nobody must see.
 Json pages_of_sheet(const Json& pages, std::size_t sheet, std::string_view secret);
 
 // The name of a showing: "clips/0123456789abcdef.mp4" for the video at `place` from the left of the page at

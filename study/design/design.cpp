@@ -70,7 +70,8 @@ std::size_t count_clips(const DesignShape& shape, std::size_t block) {
 }
 
 // Pages of a block in the sequence that sheets take their pages from: round by round, each with every clip
-// once, while the groups take turns. Where turns and rounds would meet again too early the groups skip one.
+// once, while the groups take turns. Where a clip would meet a group again before it met all others, the groups skip a
+// turn.
 std::vector<DesignPage> draw_sequence(const DesignShape& shape, std::size_t block, std::uint64_t seed) {
     const std::size_t groups = shape.groups.size();
     const std::vector<std::size_t> group_at = shuffled(groups, seed, kConditionStream);

@@ -79,8 +79,8 @@ std::size_t full_sheets(const DesignShape& shape);
 // The same shape and seed give the same design.
 //
 // Sides: within a sheet each group is shown either way equally often, to within one, and so is each page over
-// all sheets (to within one for each block). Of all pairs on each clip, each condition stands first in half
-// of its pages. Where places rotate, a sheet may lean to one side; over all sheets each condition of a page stands
+// all sheets (to within one for each block). Where each clip is shown with all pairs, each condition stands first in
+// half of its pages. Where places rotate, a sheet may lean to one side; over all sheets each condition of a page stands
 // at each place equally often, to within place_limit().
 //
 // Pages: every page is shown equally often, to within one for each block. With `each_clip_once`, or where a

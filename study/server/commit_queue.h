@@ -15,7 +15,7 @@ namespace chironomia::study::server {
 
 class CommitQueue {
   public:
-    // A change that leaves its result where its caller looks for it; it may be run twice.
+    // Stores its result in its caller's variables. Run a second time where a change of the same transaction failed.
     using Change = std::function<void(AnswerStore&)>;
 
     explicit CommitQueue(AnswerStore& store);

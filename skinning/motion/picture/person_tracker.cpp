@@ -9,8 +9,8 @@
 namespace chironomia {
 namespace {
 
-// Ours, by two made people who cross at a quarter of a metre a second: the velocity is a mean over some frames, because
-// points jitter, and is forgotten when nobody was seen for half a second of 30 frames/s.
+// Ours, chosen by two synthetic people who cross at a quarter of a metre a second: the velocity is a mean over some
+// frames, because points jitter, and is forgotten when nobody was seen for half a second of 30 frames/s.
 constexpr float kNewVelocity = 0.3f;        // weight of the last step
 constexpr std::size_t kLongestUnseen = 15;  // [frames]
 // Detectors at times find one person twice. Another person is further away than a fifth of a person's size in so many
@@ -79,7 +79,7 @@ void PersonTracker::Track::go_on(const Points* person) {
     unseen = 0;
 }
 
-// The body of each track. Who may be the one who is followed, found twice, comes after all others.
+// The body of each track. A track that may be the followed person, found twice, chooses after all others.
 std::vector<std::optional<std::size_t>> PersonTracker::assign(const std::vector<Points>& bodies) {
     std::vector<std::tuple<bool, double, std::size_t, std::size_t>> pairs;
     std::vector<double> ours;

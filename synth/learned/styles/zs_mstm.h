@@ -94,7 +94,7 @@ class ZsMstmImpl : public torch::nn::Module {
     torch::Tensor content_of(const StyleSegments& source);  // h_content (B, T, content), eq. (6.1)
     torch::Tensor style_of(const StyleSegments& target);    // h_style (B, style), eq. (6.2)
     // What each modality that the style is taken from says by itself: AST's vector of the segment, the mean of the
-    // vectors of its words, and what the memories keep of pose and face.
+    // vectors of its words, and the last states of the LSTMs of pose and face.
     std::vector<StyleModality> modalities_of(const StyleSegments& target);
     StyledMotion generate(const torch::Tensor& content, const torch::Tensor& style);
 
