@@ -301,6 +301,58 @@ TEST(House, HeadersGiveEachTypeOfANamespaceANameOfItsOwn) {
     EXPECT_THAT(found, IsEmpty()) << "rename one of each";
 }
 
+// What stands between the parenthesis before `begin` and the one that closes it, divided at its own commas; `end` is
+// behind the latter.
+struct InParentheses {
+    std::vector<std::string> parts;
+    std::size_t end = 0;
+};
+InParentheses in_parentheses(std::string_view text, std::size_t begin) {
+    InParentheses found;
+    int depth = 0, angles = 0;
+    std::size_t part = begin, at = begin;
+    for (; at < text.size() && depth >= 0; ++at) {
+        const char c = text[at];
+        if (c == '(' || c == '[' || c == '{') ++depth;
+        if (c == ')' || c == ']' || c == '}') --depth;
+        if (c == '<') ++angles;
+        if (c == '>' && angles > 0) --angles;
+        if ((c == ',' && depth == 0 && angles == 0) || depth < 0) {
+            found.parts.emplace_back(trim(text.substr(part, at - part)));
+            part = at + 1;
+        }
+    }
+    found.end = at;
+    return found;
+}
+
+// The functions of a source that are declared with more than four arguments.
+std::vector<std::string> functions_of_many_arguments(const std::string& source) {
+    static const std::regex aside(R"(//[^\n]*|"(?:[^"\\\n]|\\.)*")"), name(R"(([A-Za-z_]\w*)\s*\()");
+    static const std::regex declared(
+        R"((const )?[A-Za-z_][\w:]*(\s*<.*>)?( const)?\s*[&*]*[\s&*][A-Za-z_]\w*(\s*=[^]*)?)");
+    const std::string code = std::regex_replace(source, aside, "");
+    std::vector<std::string> found;
+    for (std::sregex_iterator match(code.begin(), code.end(), name), end; match != end; ++match) {
+        const std::size_t begin = std::size_t(match->position() + match->length());
+        const InParentheses list = in_parentheses(code, begin);
+        const auto is_declared = [&](const std::string& part) { return std::regex_match(part, declared); };
+        if (list.parts.size() > 4 && std::ranges::all_of(list.parts, is_declared))
+            found.push_back((*match)[1]);
+    }
+    return found;
+}
+
+TEST(House, FunctionsTakeFourArgumentsAtMost) {
+    std::vector<std::string> found;
+    for (const std::string& file : source_files()) {
+        for (const std::string& function :
+             functions_of_many_arguments(read_text(testing::source_dir() / file)))
+            found.push_back(file + ": " + function);
+    }
+    EXPECT_THAT(found, IsEmpty()) << "find the idea that some of them make together, and give it a struct";
+}
+
 TEST(House, NobodyUsesRandomnessOrTimeThatVaries) {
     const std::regex forbidden(
         R"(\b(std::\w+_distribution|std::random_device|std::mt19937|srand\(|std::rand\())");
@@ -360,6 +412,55 @@ std::vector<std::string> faults_of_promises(const std::string& page, const std::
         if (named == 0) found.push_back("no test is named: " + promise);
     }
     return found;
+}
+
+// The rows of docs/code_index.md: a word, and the source and functions that decide it.
+struct IndexEntry {
+    std::string word;
+    std::string file;
+    std::vector<std::string> names;
+};
+std::vector<IndexEntry> entries_of_index(const std::string& page) {
+    static const std::regex row(R"(\| ([^|]+) \| \[`[^`]+`\]\(\.\./([^)]+)\)(.*) \|)"), name("`([^`]+)`");
+    std::vector<IndexEntry> entries;
+    for (const std::string_view line : split(page, '\n')) {
+        std::match_results<std::string_view::const_iterator> match;
+        if (!std::regex_match(line.begin(), line.end(), match, row)) continue;
+        IndexEntry& entry = entries.emplace_back(IndexEntry{match[1], match[2], {}});
+        const std::string names = match[3];
+        for (std::sregex_iterator each(names.begin(), names.end(), name), end; each != end; ++each)
+            entry.names.push_back((*each)[1]);
+    }
+    return entries;
+}
+
+// `text_of` gives the text of a source, or "" where there is none.
+std::vector<std::string> faults_of_index(const std::string& page,
+                                         const std::function<std::string(const std::string&)>& text_of) {
+    const std::vector<IndexEntry> entries = entries_of_index(page);
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const IndexEntry& entry = entries[i];
+        const std::string text = text_of(entry.file);
+        if (text.empty()) found.push_back("there is no " + entry.file);
+        for (const std::string& name : entry.names) {
+            if (!std::regex_search(text, std::regex("\\b" + name + "\\b")))
+                found.push_back(format("{} has no {}", entry.file, name));
+        }
+        if (i > 0 && to_lower(entry.word) < to_lower(entries[i - 1].word))
+            found.push_back(format("\"{}\" stands after \"{}\"", entry.word, entries[i - 1].word));
+    }
+    return found;
+}
+
+TEST(House, IndexNamesFunctionsThatAreThere) {
+    const std::string page = read_text(testing::source_dir() / "docs/code_index.md");
+    EXPECT_GT(entries_of_index(page).size(), 200u);
+    const auto text_of = [](const std::string& file) {
+        const fs::path path = testing::source_dir() / file;
+        return fs::exists(path) ? read_text(path) : "";
+    };
+    EXPECT_THAT(faults_of_index(page, text_of), IsEmpty());
 }
 
 TEST(House, EachPromiseOfSecurityNamesTestsThatAreThere) {
@@ -440,6 +541,15 @@ TEST(House, RulesSeeWhatTheyForbid) {
         faults_of_promises("- one: `Aa.Bb`,\n  `Cc`\n\n- two\n- three: `Aa.Cc`\n", {"Aa", "Aa.Bb", "Cc"}),
         ::testing::ElementsAre("no test is named: - two ", "there is no test Aa.Cc"));
     EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}}), "b -> c -> b");
+    EXPECT_THAT(functions_of_many_arguments("void four(int a, int b, int c, Map<int, int> d);\n"
+                                            "void five(int a, const Far::Point& b, int c, int* d,\n"
+                                            "          std::vector<Pair<int, int>> e = {1, 2});  // (int f)\n"
+                                            "void g() { h(a, b, c, d, e); }\n"),
+                ::testing::ElementsAre("five"));
+    EXPECT_THAT(
+        faults_of_index("| bones | [`a.cpp`](../a.cpp): `one`, `two` |\n| Arms | [`b.cpp`](../b.cpp) |\n",
+                        [](const std::string& file) { return file == "a.cpp" ? "int one;" : ""; }),
+        ::testing::ElementsAre("a.cpp has no two", "there is no b.cpp", "\"Arms\" stands after \"bones\""));
     EXPECT_EQ(includes_in("a.cpp", "int x;\n  #include <glm/glm.hpp>\n")[0].line, 2u);
 }
 
