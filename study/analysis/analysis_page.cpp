@@ -95,7 +95,7 @@ std::string card(const std::string& number, const std::string& what) {
 
 std::string cards_html(const Analysis& analysis) {
     const Dataset& data = analysis.data;
-    const std::size_t asked = data.questions.size() - data.scales;
+    const std::size_t asked = data.questions.size() - data.scales.size();
     std::size_t passes = 0;
     for (const Rater& rater : data.raters) passes += rater.answered;
     return card(std::to_string(data.raters.size()), "took part") +

@@ -470,6 +470,12 @@ void check_questionnaire(const StudyPages& pages, const Respondent& participant)
 
 }  // namespace
 
+bool Dataset::is_item(std::size_t question) const {
+    return std::ranges::any_of(scales, [question](const Scale& scale) {
+        return std::ranges::find(scale.items, question) != scale.items.end();
+    });
+}
+
 std::string label_of(const Dataset& data, std::vector<std::size_t> conditions) {
     std::sort(conditions.begin(), conditions.end());
     return names_of(data.conditions, conditions, " + ");
@@ -482,7 +488,7 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                  .seed = key.seed,
                  .conditions = key.conditions,
                  .questions = key.questions,
-                 .scales = key.scales.size(),
+                 .scales = key.scales,
                  .questionnaire = pages.questionnaire,
                  .rules = key.exclusions};
     for (const Scale& scale : key.scales) data.questions.push_back(as_question(scale, key.questions));

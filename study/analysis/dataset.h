@@ -11,6 +11,7 @@
 
 #include "study/analysis/answers.h"
 #include "study/record/key.h"
+#include "study/record/scales.h"
 
 namespace chironomia::study::analysis {
 
@@ -96,8 +97,8 @@ struct Dataset {
     bool simulated = false;
     std::uint64_t seed = 42;
     std::vector<KeyCondition> conditions;
-    std::vector<Question> questions;      // and scales after them, as if they were asked
-    std::size_t scales = 0;               // how many these are
+    std::vector<Question> questions;  // and scales after them, as if they were asked
+    std::vector<Scale> scales;
     std::vector<Question> questionnaire;  // asked at the end
     std::vector<std::string> cells;       // labels of scores; the first are the conditions
     // Of cells about a ranked option its text: only scores of the same option are compared.
@@ -113,7 +114,8 @@ struct Dataset {
     std::vector<AnswerRow> rows;
     std::vector<std::string> notes;  // what was left out and why
 
-    bool is_scale(std::size_t question) const { return question >= questions.size() - scales; }
+    bool is_scale(std::size_t question) const { return question >= questions.size() - scales.size(); }
+    bool is_item(std::size_t question) const;  // of any scale
 };
 
 // The names of conditions that are shown together, in the order of the plan: "base + ours".

@@ -248,6 +248,7 @@ std::vector<QuestionPair> compare_questions(const Dataset& data) {
         for (std::size_t b = a + 1; b < data.questions.size(); ++b) {
             if (data.is_scale(a) != data.is_scale(b) || !same_scale(data.questions[a], data.questions[b]))
                 continue;
+            if (data.is_item(a) && data.is_item(b)) continue;
             for (const std::size_t cell : cells_of(data, a)) {
                 const Paired paired = pair_up(means_of(data, a, cell), means_of(data, b, cell));
                 if (paired.first.empty()) continue;
@@ -273,7 +274,8 @@ std::vector<ReliabilityResult> compute_reliability(const Dataset& data) {
                            .answers = answers.size(),
                            .alpha = cronbach_alpha(answers)});
     };
-    for (std::size_t scale = data.questions.size() - data.scales; scale < data.questions.size(); ++scale) {
+    for (std::size_t scale = data.questions.size() - data.scales.size(); scale < data.questions.size();
+         ++scale) {
         const std::vector<std::size_t> cells = cells_of(data, scale);
         if (cells.empty()) continue;
         add(scale, std::nullopt);

@@ -12,7 +12,8 @@ namespace chironomia::study::analysis {
 // rated more than one cell, else between them. Of ranked options there are none, as their ranks add up to the same.
 std::vector<ScoreResult> compute_scores(const Dataset& data);
 
-// Every two questions with the same scale within each cell, as the thesis compares its factors.
+// Every two questions of the same range within each cell, as the thesis compares its factors; not two items of scales
+// (study/record/scales.h), but every two such scales.
 std::vector<QuestionPair> compare_questions(const Dataset& data);
 
 // Of each scale over all cells, and where there are several also of each.

@@ -288,6 +288,15 @@ TEST(AnalyseCli, ScoresAScaleOfEachAnswerWithCronbachsAlpha) {
     EXPECT_EQ(strict["paired_t"].back()["question"], "mood");
     EXPECT_NEAR(strict["paired_t"].back()["difference"].get<double>(), 5.0 / 12, 1e-9);
     EXPECT_THAT(read_text(folder / "out/report.html"), HasSubstr("Mean of x, y and z (reversed)."));
+    EXPECT_FALSE(strict.contains("questions")) << "items are not compared with each other";
+}
+
+TEST(AnalyseCli, ComparesAnItemOfAScaleWithQuestionsOutsideOfIt) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(analyse_scale(folder, {{"id", "mood"}, {"items", {"x", "y"}}}).exit_code, 0);
+    const Json pairs = read_json(folder / "out/analysis.json")["strict"]["questions"];
+    ASSERT_EQ(pairs.size(), 4u) << "x and z, y and z, of both conditions";
+    for (const Json& pair : pairs) EXPECT_EQ(pair["other_question"], "z");
 }
 
 TEST(AnalyseCli, SaysWhichItemOfAScaleGoesAgainstTheOthers) {
