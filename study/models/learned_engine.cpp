@@ -83,6 +83,7 @@ void ask_to_animate(const fs::path& checkpoint, const JobFolder& folder, const L
                 {"inputs", folder.inputs().string()},
                 {"out", folder.result().string()},
                 {"threads", engine.threads},
+                {"quiet", engine.quiet},
                 {"options", Json::object()}};
     if (engine.style_of) {
         job["style"] = style_job(*engine.style_of);

@@ -23,6 +23,7 @@ struct LearnedEngine {
     // vectors of words; none: the built-in encoder.
     std::optional<std::filesystem::path> bert{};
     int threads = 1;
+    bool quiet = false;  // no progress on stderr
     // Of models of style: whose style it is (style_job of study/models/style_engine.h), as the mean of how many
     // segments of theirs.
     std::optional<std::string> style_of{};

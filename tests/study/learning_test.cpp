@@ -216,7 +216,7 @@ TEST_F(Learning, GoesFromTalksToAFace) {
 // Brows that live, and do not jump from one frame to the next.
 TEST_F(Learning, SpeaksWithTheModelsThatAreBundled) {
     for (const char* model : {"model1", "model2"}) {
-        must({"synth", "--engine", model, "--text", kText, "--out", file("m.h5")});
+        must({"synth", "--engine", model, "--text", kText, "--quiet", "--out", file("m.h5")});
         const Motion motion = testing::read_motion_hdf5(file("m.h5"));
         const FaceTrack& face = *motion.face;
         const std::size_t channels = face.channels.size();

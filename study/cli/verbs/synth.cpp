@@ -280,6 +280,7 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
     verb->add_option("--speech-out", command->speech_out, "The speech")->type_name("S.wav");
     verb->add_option("--score-out", command->score_out, "What is said, meant and done when, as JSON")
         ->type_name("F.json");
+    verb->add_flag("--quiet", command->learned.quiet, "No progress");
     verb->callback([&result, command, verb] {
         const SynthesisJob& job = command->job;
         check_learned(*verb, *command);
