@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Only a study, finished or not, may be built upon.
-void require_place_for_study(const StudyFolder& study) {
+void require_study_folder(const StudyFolder& study) {
     if (!fs::exists(study.root)) return;
     const auto refuse = [&](const std::string& what) {
         throw Error(format("{}: {}; name a new folder", study.root.string(), what));
@@ -204,7 +204,8 @@ BuildSummary summary_of(const StudyDraft& draft, const BuildOptions& options) {
 }
 
 // Refuses a folder that may not become this study.
-void require_place_for(const StudyDraft& draft, const StudyFolder& study, const BuildOptions& options) {
+void require_same_study_or_leave(const StudyDraft& draft, const StudyFolder& study,
+                                 const BuildOptions& options) {
     if (!is_same_study(study, draft)) require_leave_to_replace(study, options);
     require_no_server(study);
 }
@@ -234,20 +235,20 @@ void remove_recordings(const StudyFolder& study) {
 
 BuildSummary build_study(const Plan& plan, const BuildOptions& options, const ClipMaker& maker) {
     const StudyFolder study{options.out};
-    require_place_for_study(study);
+    require_study_folder(study);
     const StudyDraft draft = draft_study(plan, options.seed, maker);
     BuildSummary summary = summary_of(draft, options);
 
     make_folder(study.closed());
     const BuildLock lock(study.closed());
     if (is_finished(study, draft)) return summary;
-    require_place_for(draft, study, options);
+    require_same_study_or_leave(draft, study, options);
     try {
         const Recordings recordings = record_missing(draft, draft.videos, options, maker);
         require_equal_lengths(draft, recordings.videos);
         summary.recorded = recordings.recorded;
         summary.warnings = list_warnings(draft, draft.videos, recordings.videos);
-        require_place_for(draft, study, options);
+        require_same_study_or_leave(draft, study, options);
         if (!is_finished(study, draft)) lay_out(draft, recordings.videos, study);
     } catch (const Error&) {
         // Another process may have finished the study, and taken the recordings away.
@@ -259,12 +260,12 @@ BuildSummary build_study(const Plan& plan, const BuildOptions& options, const Cl
 
 StudyState inspect_study(StudyDraft draft, const BuildOptions& options) {
     const StudyFolder study{options.out};
-    require_place_for_study(study);
+    require_study_folder(study);
     StudyState state{.draft = std::move(draft), .distinct = {}};
     state.distinct = distinct_videos(state.draft.videos);
     state.finished = is_finished(study, state.draft);
     if (state.finished) return state;
-    require_place_for(state.draft, study, options);
+    require_same_study_or_leave(state.draft, study, options);
     state.missing = list_missing(state.distinct, study.work());
     return state;
 }
@@ -280,14 +281,14 @@ std::vector<std::string> warnings_of_finished(const StudyDraft& draft, const fs:
 ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOptions& options,
                          const ClipMaker& maker) {
     const StudyFolder study{options.out};
-    require_place_for_study(study);
+    require_study_folder(study);
     const StudyDraft draft = draft_study(plan, options.seed, maker);
     const std::vector<Video> videos = part_of(distinct_videos(draft.videos), shard);
     ShardSummary summary{.videos = videos.size()};
 
     make_folder(study.closed());
     if (is_finished(study, draft)) return summary;
-    require_place_for(draft, study, options);
+    require_same_study_or_leave(draft, study, options);
     try {
         const Recordings recordings = record_missing(draft, videos, options, maker);
         summary.recorded = recordings.recorded;
