@@ -188,7 +188,7 @@ std::vector<std::string> faults(Rule rule) {
     return found;
 }
 
-TEST(House, StreetsRunOneWay) {
+TEST(House, RoomsIncludeOneWay) {
     EXPECT_THAT(faults(street_fault), IsEmpty());
 }
 
