@@ -39,8 +39,8 @@ const LabelTier* find_tier(const std::vector<LabelTier>& tiers, std::initializer
 }
 
 bool is_silence(const TimedLabel& label) {
-    static constexpr std::array<std::string_view, 9> kSilences = {"",      "sil", "sp",   "spn", "<eps>",
-                                                                  "<sil>", "<p>", "<p:>", "#"};
+    static constexpr std::array<std::string_view, 10> kSilences = {"",      "sil", "sp",   "spn",   "<eps>",
+                                                                   "<sil>", "<p>", "<p:>", "<nib>", "#"};
     const std::string text = to_lower(trim(label.text));
     return std::find(kSilences.begin(), kSilences.end(), text) != kSilences.end();
 }
@@ -49,7 +49,8 @@ bool is_silence(const TimedLabel& label) {
 
 TimedLabels labels_of_tiers(const std::vector<LabelTier>& tiers, const std::string& file) {
     const LabelTier* words = find_tier(tiers, {"words", "word", "ort-mau"}, file);
-    const LabelTier* phones = find_tier(tiers, {"phones", "phone", "phonemes", "phoneme", "segments"}, file);
+    const LabelTier* phones =
+        find_tier(tiers, {"phones", "phone", "phonemes", "phoneme", "segments", "mau"}, file);
     const LabelTier* only = nullptr;
     const auto is_intervals = [](const LabelTier& tier) { return tier.has_intervals; };
     if (words == nullptr && phones == nullptr && std::count_if(tiers.begin(), tiers.end(), is_intervals) == 1)

@@ -15,9 +15,9 @@ struct LabelTier {
 };
 
 // Words are the tier named words, word or ORT-MAU, alone, after "speaker - ", or before "@speaker", or the only tier of
-// intervals; phonemes the tier named phones, phone, phonemes, phoneme or segments. Intervals of silence ("", sil, sp,
-// spn, <eps>, <p>, <p:>) are no words. `file` is named in messages. Throws Error if no tier holds words, or if several
-// do.
+// intervals; phonemes the tier named phones, phone, phonemes, phoneme, segments or MAU. Intervals of silence ("", sil,
+// sp, spn, <eps>, <p>, <p:>) and WebMAUS's <nib>, a noise, are no words. `file` is named in messages. Throws Error if
+// no tier holds words, or if several do.
 TimedLabels labels_of_tiers(const std::vector<LabelTier>& tiers, const std::string& file);
 
 }  // namespace chironomia

@@ -40,6 +40,12 @@ bool is_vowel(std::string_view symbol) {
                        [&](std::string_view vowel) { return symbol.starts_with(vowel); });
 }
 
+bool is_bracketed(std::string_view label) {
+    label = trim(label);
+    return label.size() > 2 && ((label.starts_with('<') && label.ends_with('>')) ||
+                                (label.starts_with('{') && label.ends_with('}')));
+}
+
 std::optional<PhoneLabel> read_arpabet(std::string_view label) {
     std::string name(trim(label));
     for (char& letter : name)
@@ -68,8 +74,9 @@ PhoneLabel read_ipa(std::string_view label) {
         phone.stress = stress;
         text.erase(place, mark.size());
     }
-    for (const std::string_view silence : {"", "sil", "sp", "spn", "<eps>", "<p>", "<p:>", "#", "_"})
-        if (text == silence) return {.symbol = "_"};
+    static constexpr std::string_view kSilences[] = {"", "sil", "sp", "spn", "#", "_"};
+    if (is_bracketed(text) || std::ranges::find(kSilences, text) != std::end(kSilences))
+        return {.symbol = "_"};
     phone.symbol = text;
     return phone;
 }

@@ -13,6 +13,9 @@ namespace chironomia {
 // syllabic.
 bool is_vowel(std::string_view symbol);
 
+// Whether a label among phonemes stands in brackets, as aligners write what is none: "<p:>", "{LG}" for a laugh.
+bool is_bracketed(std::string_view label);
+
 struct PhoneLabel {
     std::string symbol;  // IPA without marks of stress; "_" for silence
     Stress stress = Stress::none;
@@ -22,7 +25,7 @@ struct PhoneLabel {
 // nothing for any other label. A vowel without a digit has no stress.
 std::optional<PhoneLabel> read_arpabet(std::string_view label);
 
-// An IPA label, its marks of stress taken off; silences ("", "sil", "sp", "spn") are "_".
+// An IPA label, its marks of stress taken off; silences ("", "sil", "sp", "spn", and labels in brackets) are "_".
 PhoneLabel read_ipa(std::string_view label);
 
 }  // namespace chironomia

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "core/error.h"
@@ -16,6 +17,7 @@
 #include "synth/speech/word_json.h"
 #include "synth/speech/word_table.h"
 #include "synth/speech/word_text.h"
+#include "synth/speech/xsampa.h"
 
 namespace chironomia {
 namespace {
@@ -162,18 +164,31 @@ std::size_t add_words(TimedWords& timed, const TimedLabel& label) {
     return texts.size();
 }
 
-// Whether all labels are of ARPAbet.
-bool are_arpabet(const std::vector<TimedLabel>& labels) {
-    return std::all_of(labels.begin(), labels.end(),
-                       [](const TimedLabel& label) { return read_arpabet(label.text).has_value(); });
+// How a tier writes its phonemes.
+enum class Notation { ipa, arpabet, xsampa };
+
+Notation notation_of(const std::vector<TimedLabel>& labels) {
+    const bool is_arpabet = std::ranges::all_of(labels, [](const TimedLabel& label) {
+        return is_bracketed(label.text) || read_arpabet(label.text).has_value();
+    });
+    if (is_arpabet) return Notation::arpabet;
+    std::vector<std::string> texts;
+    for (const TimedLabel& label : labels) texts.push_back(label.text);
+    return are_xsampa(texts) ? Notation::xsampa : Notation::ipa;
+}
+
+PhoneLabel read_phone(const std::string& label, Notation notation) {
+    if (notation == Notation::xsampa) return read_xsampa(label);
+    const auto arpabet = notation == Notation::arpabet ? read_arpabet(label) : std::nullopt;
+    return arpabet ? *arpabet : read_ipa(label);
 }
 
 std::vector<SpokenPhoneme> phonemes_of(const std::vector<TimedLabel>& labels) {
-    const bool is_arpabet = are_arpabet(labels);
+    const Notation notation = notation_of(labels);
     std::vector<SpokenPhoneme> phonemes;
     Stress waiting = Stress::none;  // of a mark before the consonants of a syllable
     for (const TimedLabel& label : labels) {
-        const PhoneLabel phone = is_arpabet ? *read_arpabet(label.text) : read_ipa(label.text);
+        const PhoneLabel phone = read_phone(label.text, notation);
         if (phone.stress != Stress::none) waiting = phone.stress;
         const bool carries = is_vowel(phone.symbol);
         const bool is_pause = phone.symbol == "_" && !phonemes.empty() && phonemes.back().symbol == "_";

@@ -23,7 +23,7 @@ struct TimedWords {
 // - Words lose the punctuation around them. A stretch of several words is spread by their letters, and noted.
 // - Words that overlap by up to 50 ms are cut apart, ends up to 100 ms after the sound are cut, and words of
 //   no length last to the next one, at most 50 ms; all of it is noted.
-// - Phonemes in ARPAbet come out in IPA; a phoneme belongs to the word in which its middle lies.
+// - Phonemes in ARPAbet and X-SAMPA come out in IPA; a phoneme belongs to the word in which its middle lies.
 // Throws Error with the place in the file if it cannot be read, if it has two speakers, if a word ends before it
 // starts, overlaps its neighbour or lies outside the sound, or if there is no word and no phoneme.
 TimedWords read_timed_words(const std::filesystem::path& file, double duration);

@@ -158,6 +158,28 @@ TEST_F(Synth, GesturesWithARecording) {
                 HasSubstr("nobody knows when its words are said; give them with --words"));
 }
 
+// What WebMAUS writes, and the same phonemes in IPA.
+TEST_F(Synth, ShapesTheMouthByThePhonemesOfWebMaus) {
+    const auto intensities_by = [&](const std::string& tier, const std::vector<std::string>& phones) {
+        std::string grid =
+            "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n0\n2\n<exists>\n2\n"
+            "\"IntervalTier\"\n\"ORT-MAU\"\n0\n2\n1\n0.5 1.5 \"bonjour\"\n"
+            "\"IntervalTier\"\n\"" +
+            tier + "\"\n0\n2\n5\n";
+        for (std::size_t i = 0; i < phones.size(); ++i)
+            grid += format("{:.1f} {:.1f} \"{}\"\n", 0.5 + 0.2 * double(i), 0.7 + 0.2 * double(i), phones[i]);
+        write_text(file("w.TextGrid"), grid);
+        EXPECT_EQ(
+            synth({"--speech", file("s.wav"), "--words", file("w.TextGrid"), "--language", "fr"}).exit_code,
+            0);
+        return testing::read_motion_hdf5(file("m.h5")).face->intensities;
+    };
+    write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(2 * 16000, 0.1f)});
+    const auto webmaus = intensities_by("MAU", {"b", "o~", "Z", "u", "R"});
+    EXPECT_EQ(webmaus, intensities_by("phones", {"b", "o\u0303", "ʒ", "u", "ʁ"}));
+    EXPECT_NE(webmaus, intensities_by("syllables", {"b", "o~", "Z", "u", "R"}));
+}
+
 TEST_F(Synth, SaysThatNoSpeechIsHeard) {
     write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(12 * 16000)});
     const Outcome silent = synth({"--speech", file("s.wav")});

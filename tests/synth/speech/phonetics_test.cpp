@@ -32,6 +32,8 @@ TEST(Phonetics, ReadIpa) {
     EXPECT_EQ(phone_text(read_ipa("ˌɔ̃")), ",ɔ̃");
     EXPECT_EQ(phone_text(read_ipa(" ʃ ")), "ʃ");
     EXPECT_EQ(phone_text(read_ipa("spn")), "_");
+    EXPECT_EQ(phone_text(read_ipa("{LG}")), "_") << "a laugh";
+    EXPECT_EQ(phone_text(read_ipa("<nib>")), "_") << "a noise";
 }
 
 TEST(Phonetics, KnowVowelsFromConsonants) {

@@ -166,6 +166,29 @@ TEST_F(TimedWordsOf, ReadPhonemesInIpaWithTheirStressAtTheVowel) {
     EXPECT_THAT(with_times(timed.phonemes), ElementsAre("ʁ 0.5-0.6", "'ɑ̃ 0.6-0.9", ",y 1-1.2", "ʃ 1.2-1.5"));
 }
 
+// As the aligner of Penn writes it; the tier is ARPAbet all the same.
+TEST_F(TimedWordsOf, ReadALaughAmongArpabetAsAPause) {
+    const TimedWords timed = read(short_textgrid(
+        "2\n" + kWordTier + short_tier("phones", {"0.5 0.7 \"B\"", "0.7 0.9 \"AY1\"", "0.9 1.4 \"{LG}\""})));
+    EXPECT_THAT(with_times(timed.phonemes), ElementsAre("b 0.5-0.7", "'aɪ 0.7-0.9", "_ 0.9-1.4"));
+}
+
+// WebMAUS writes X-SAMPA.
+TEST_F(TimedWordsOf, ReadThePhonemesOfWebMaus) {
+    const std::string words = short_tier("ORT-MAU", {"0 0.5 \"<nib>\"", "0.5 0.9 \"bonjour\"", "0.9 2 \"\""});
+    const std::string forms = short_tier("KAN-MAU", {"0 0.5 \"\"", "0.5 0.9 \"b o~ Z u R\"", "0.9 2 \"\""});
+    const std::string phones =
+        short_tier("MAU", {"0 0.5 \"<nib>\"", "0.5 0.6 \"b\"", "0.6 0.7 \"o~\"", "0.7 0.75 \"Z\"",
+                           "0.75 0.85 \"u\"", "0.85 0.9 \"R\"", "0.9 2 \"<p:>\""});
+    const TimedWords timed = read(short_textgrid("3\n" + words + forms + phones));
+    EXPECT_THAT(with_times(timed.words), ElementsAre("bonjour 0.5-0.9"));
+    EXPECT_THAT(with_times(timed.phonemes),
+                ElementsAre("_ 0-0.5", "b 0.5-0.6", "o\u0303 0.6-0.7", "ʒ 0.7-0.75", "u 0.75-0.85",
+                            "ʁ 0.85-0.9", "_ 0.9-2"));
+    EXPECT_EQ(timed.words[0].first_phoneme, 1u);
+    EXPECT_EQ(timed.words[0].end_phoneme, 6u);
+}
+
 TEST_F(TimedWordsOf, AreRefusedIfATextGridIsBroken) {
     EXPECT_EQ(refusal(short_textgrid("1\n\"IntervalTier\"\n\"words\"\n0\n2\n1\n0.5 0.9")),
               "line 13: the TextGrid ends too early; save it again");
