@@ -76,14 +76,15 @@ bool is_chinese(char32_t character) {
     return lies_in(character, 0x3400, 0x9fff) || lies_in(character, 0xf900, 0xfaff);
 }
 
-// None of a script that may change its voice on the way.
-std::vector<std::string> parts_in_other_scripts(const SpeakRequest& request) {
+// "en" of "en-gb".
+std::string_view main_language(const std::string& language) {
+    return std::string_view(language).substr(0, language.find('-'));
+}
+
+std::vector<std::string> stretches_in_other_scripts(const std::string& text) {
     std::vector<std::string> parts;
-    if (request.is_ssml && (request.text.find("xml:lang") != std::string::npos ||
-                            request.text.find("<voice") != std::string::npos))
-        return parts;
     std::u32string part;
-    for (const char32_t character : characters_of(request.text) + U" ") {
+    for (const char32_t character : characters_of(text) + U" ") {
         if (is_of_another_script(character)) {
             part += character;
         } else if (!part.empty()) {
@@ -94,6 +95,43 @@ std::vector<std::string> parts_in_other_scripts(const SpeakRequest& request) {
     return parts;
 }
 
+// None of a script that may change its voice on the way.
+std::vector<std::string> parts_in_other_scripts(const SpeakRequest& request) {
+    if (request.is_ssml && (request.text.find("xml:lang") != std::string::npos ||
+                            request.text.find("<voice") != std::string::npos))
+        return {};
+    return stretches_in_other_scripts(request.text);
+}
+
+// Whether all of the text is to be Japanese: by the voice, or by every xml:lang of SSML.
+bool is_japanese(const SpeakRequest& request) {
+    constexpr std::string_view kAttribute = "xml:lang", kBefore = " \t\r\n=\"'";
+    const std::string_view text = request.text;
+    std::size_t at = request.is_ssml ? text.find(kAttribute) : std::string_view::npos;
+    if (at == std::string_view::npos) return main_language(request.voice.language) == "ja";
+    for (; at != std::string_view::npos; at = text.find(kAttribute, at + 1)) {
+        const std::size_t value = text.find_first_not_of(kBefore, at + kAttribute.size());
+        if (value == std::string_view::npos || to_lower(text.substr(value, 2)) != "ja") return false;
+    }
+    return text.find("<voice") == std::string_view::npos;
+}
+
+[[noreturn]] void refuse_letters(const std::string& letters, const std::string& language) {
+    throw Error(format(
+        "espeak-ng: the voice of \"{}\" cannot read {}; write it in letters that it reads, such as kana "
+        "for Japanese, or record it",
+        language, quoted(letters)));
+}
+
+// A foreign word in a longer text may be spelt, but kanji are no foreign words of Japanese: every sentence has some.
+void expect_no_kanji(const SpeakRequest& request) {
+    if (!is_japanese(request)) return;
+    for (const std::string& part : stretches_in_other_scripts(request.text)) {
+        const std::u32string characters = characters_of(part);
+        if (std::any_of(characters.begin(), characters.end(), is_chinese)) refuse_letters(part, "ja");
+    }
+}
+
 bool is_name_of_voice(const std::string& symbol) {
     return symbol.starts_with('(');
 }
@@ -102,7 +140,7 @@ bool is_name_of_voice(const std::string& symbol) {
 bool is_spelt(const std::string& part, const std::vector<std::string>& phonemes,
               const std::string& language) {
     const std::u32string characters = characters_of(part);
-    const std::string_view main = std::string_view(language).substr(0, language.find('-'));
+    const std::string_view main = main_language(language);
     const bool speaks_chinese = main == "cmn" || main == "yue" || main == "hak";
     return (!speaks_chinese && std::any_of(characters.begin(), characters.end(), is_chinese)) ||
            std::any_of(phonemes.begin(), phonemes.end(),
@@ -122,10 +160,7 @@ void expect_read(const SpeakRequest& request, const std::vector<std::string>& pa
         spelt += characters_of(parts[i]).size();
     }
     if (first == nullptr || static_cast<double>(spelt) < most * static_cast<double>(all)) return;
-    throw Error(format(
-        "espeak-ng: the voice of \"{}\" cannot read {}; write it in letters that it reads, such as kana "
-        "for Japanese, or record it",
-        request.voice.language, quoted(*first)));
+    refuse_letters(*first, request.voice.language);
 }
 
 //   most_spelt   of its characters, share that makes no sense
@@ -163,6 +198,7 @@ Speech speak(const MarkedText& text, const Voice& voice) {
     SpeakRequest request{.text = text.script, .is_ssml = text.is_ssml, .voice = voice};
     for (const ScriptWord& word : text.words) request.words.push_back(word.text);
     check(request);
+    expect_no_kanji(request);
     const SpeakReply reply = ask(request, kMostSpelt);
     const bool has_phonemes =
         std::any_of(reply.events.begin(), reply.events.end(), [](const SpeakEvent& event) {

@@ -328,6 +328,8 @@ TEST_F(Synth, SaysWhatIsWrong) {
                 HasSubstr("there is no such speaker; did you mean vigorous?"));
     EXPECT_THAT(refusal({"--aplm", "<APLM><theme>One</rheme></APLM>"}), HasSubstr("--aplm:1:"));
     EXPECT_THAT(refusal({"--text", " "}), HasSubstr("--text"));
+    EXPECT_THAT(refusal({"--text", "こんにちは。今日はいいてんきです。", "--language", "ja"}),
+                HasSubstr("\"ja\" cannot read \"今日はいいてんきです\"; write it in letters that it reads"));
     EXPECT_THAT(refusal({"--gesture", "wave_hello_there"}), HasSubstr("there is no such gesture"));
     EXPECT_THAT(refusal({"--text", kText, "--lexicon", "none.json"}), HasSubstr("none.json"));
     EXPECT_THAT(refusal({"--dialog", "none.json"}), HasSubstr("none.json"));

@@ -104,6 +104,17 @@ TEST(Speak, RefusesLettersThatTheVoiceSpellsByTheirNamesInEnglish) {
                 HasSubstr("\"ja\" cannot read \"左をえらぶ\""));
 }
 
+// Half of this sentence is kana, as of any in Japanese.
+TEST(Speak, RefusesKanjiHoweverFewTheyAre) {
+    EXPECT_THAT(
+        refusal_of([] { say("みなさん、こんにちは。きょうは、左をえらびます。", {.language = "ja"}); }),
+        HasSubstr("\"ja\" cannot read \"左をえらびます\""));
+    EXPECT_THAT(refusal_of([] { say_ssml("<s xml:lang=\"ja-JP\">きょうは、左をえらびます。</s>"); }),
+                HasSubstr("\"ja\" cannot read \"左をえらびます\""));
+    EXPECT_GT(say("みなさん、こんにちは。", {.language = "ja"}).audio.duration(), 0.5);
+    EXPECT_GT(say("The sign 左 stands on the left side.").audio.duration(), 0.5) << "a foreign word";
+}
+
 TEST(Speak, ReadsTheScriptsOfItsLanguages) {
     EXPECT_GT(speak("ひだりをえらんでください。", "ja").duration(), 0.5);
     EXPECT_GT(speak("請選左邊", "yue").duration(), 0.5);
