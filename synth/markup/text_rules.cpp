@@ -184,6 +184,11 @@ bool is_formula(const Cue& cue) {
                                                   cue.value == "thank" || cue.value == "apologise");
 }
 
+// What a negation turns into its opposite: feelings and agreement.
+bool can_be_denied(const Cue& cue) {
+    return cue.kind == MarkKind::emotion || (cue.kind == MarkKind::performative && cue.value == "agree");
+}
+
 // Whether nothing but "and", "well", "um" stands between the word and a formula.
 bool Marker::opens_formula(std::size_t word) const {
     while (word + 1 < letters_.size() && pauses_[word].depth < Depth::clause &&
@@ -315,7 +320,7 @@ bool Marker::mark_cues(const Stretch& clause) {
         const bool fits = cue && (cue->place == CuePlace::anywhere ||
                                   (cue->place == CuePlace::clause_start && is_at_start(clause, at)) ||
                                   (cue->place == CuePlace::clause_end && end == clause.end));
-        const bool is_denied = fits && cue->kind == MarkKind::emotion && is_negated(clause, at);
+        const bool is_denied = fits && can_be_denied(*cue) && is_negated(clause, at);
         if (fits && !is_denied && !is_repeated_pointing(*cue, at)) {
             const bool is_social = cue->kind == MarkKind::performative && cue->value != "refuse";
             const bool is_relation = cue->kind == MarkKind::belief_relation && cue->value != "enumerate";

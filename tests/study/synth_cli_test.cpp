@@ -102,6 +102,15 @@ TEST_F(Synth, SpeaksAndActsInTheLanguageThatItIsGiven) {
     EXPECT_THAT(refused.err, HasSubstr("no voice speaks \"xx\"; write one of"));
 }
 
+TEST_F(Synth, ShowsNoAgreementWhereItIsDenied) {
+    const auto gestures_of = [&](const char* text) {
+        EXPECT_EQ(synth({"--text", text, "--language", "fr", "--score-out", file("s.json")}).exit_code, 0);
+        return read_json(file("s.json"))["gestures"].dump();
+    };
+    EXPECT_THAT(gestures_of("Je suis d'accord avec vous."), HasSubstr("performative=agree"));
+    EXPECT_THAT(gestures_of("Je ne suis pas d'accord avec vous."), Not(HasSubstr("performative=agree")));
+}
+
 TEST_F(Synth, MovesNoHandWithoutActivation) {
     ASSERT_EQ(synth({"--text", kText, "--oac", "0", "--score-out", file("s.json")}).exit_code, 0);
     EXPECT_EQ(read_json(file("s.json"))["gestures"].size(), 0u);

@@ -113,6 +113,20 @@ TEST(TextRules, ANegatedFeelingIsNotShown) {
     EXPECT_THAT(feelings("Happy people do not cry.", "en"), ElementsAre("emotion=joy(Happy)"));
 }
 
+TEST(TextRules, ANegatedAgreementIsNotShown) {
+    const auto agreements = [](const std::string& text, const std::string& language) {
+        std::vector<std::string> found = marks_in(marked(text, language), MarkKind::performative);
+        std::erase_if(found, [](const std::string& mark) { return !mark.starts_with("performative=agree"); });
+        return found;
+    };
+    EXPECT_THAT(agreements("Mais je ne suis pas d'accord.", "fr"), IsEmpty());
+    EXPECT_THAT(agreements("Je suis d'accord.", "fr"), ElementsAre("performative=agree(d'accord)"));
+    EXPECT_THAT(agreements("Ich bin nicht einverstanden.", "de"), IsEmpty());
+    EXPECT_THAT(agreements("Einverstanden bin ich nicht.", "de"), IsEmpty());
+    EXPECT_THAT(agreements("Stimmt nicht.", "de"), IsEmpty());
+    EXPECT_THAT(agreements("Ich bin einverstanden.", "de"), ElementsAre("performative=agree(einverstanden)"));
+}
+
 TEST(TextRules, FindRelationsPropertiesPlacesAndFeelings) {
     EXPECT_THAT(
         marks_in(marked("First we measure, but the big round tank over there might leak because of fear. "
