@@ -1,6 +1,7 @@
 #include "synth/speech/word_json.h"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -34,7 +35,7 @@ class Reader {
             read_segments(json_, "");
         } else if (json_.is_array()) {
             read_words(with_times_between(json_), "");
-        } else if (has_list(json_, "segments")) {
+        } else if (has_list(json_, "segments") && !has_words_beside_segments()) {
             read_segments(json_["segments"], "segments");
         } else if (has_list(json_, "words")) {
             read_words(with_times_between(json_["words"]), "words");
@@ -65,6 +66,14 @@ class Reader {
     static bool has_any(const Json& list, const char* key) {
         return list.is_array() &&
                std::any_of(list.begin(), list.end(), [&](const Json& part) { return has_list(part, key); });
+    }
+
+    // OpenAI's service lists the words of a recording beside its segments, which hold none.
+    bool has_words_beside_segments() const {
+        return !has_any(json_["segments"], "words") &&
+               std::ranges::any_of(std::array{"words", "word_segments"}, [&](const char* key) {
+                   return has_list(json_, key) && std::any_of(json_[key].begin(), json_[key].end(), is_timed);
+               });
     }
 
     // What Google heard in one stretch of sound after the other, the likeliest first.

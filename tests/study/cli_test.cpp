@@ -538,7 +538,13 @@ TEST(Info, DescribesWordsInTime) {
                "talk\t\t00:00:00.300\t0.3\t00:00:00.750\t0.75\t00:00:00.450\t0.45\tways\n");
     write_text(folder / "g.ctm", "talk 1 0.1 0.2 two\ntalk 1 0.3 0.45 ways\n");
     write_text(folder / "h.tsv", "0.1\t0.3\ttwo\n0.3\t0.75\tways\n");  // as GENEA has them
-    for (const char* name : {"a.json", "b.json", "c.csv", "d.json", "e.csv", "f.txt", "g.ctm", "h.tsv"}) {
+    write_text(
+        folder / "i.json",
+        "{\"words\": [{\"word\": \"two\", \"start\": 0.1, \"end\": 0.3}, "
+        "{\"word\": \"ways\", \"start\": 0.3, \"end\": 0.75}], "
+        "\"segments\": [{\"text\": \"two ways\", \"start\": 0, \"end\": 1}]}");  // as OpenAI's service has them
+    for (const char* name :
+         {"a.json", "b.json", "c.csv", "d.json", "e.csv", "f.txt", "g.ctm", "h.tsv", "i.json"}) {
         const Outcome info = run_chironomia({"info", (folder / name).string()});
         EXPECT_EQ(info.out,
                   "words      2, 0 phonemes\n"

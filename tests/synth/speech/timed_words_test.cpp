@@ -399,6 +399,8 @@ TEST_F(TimedWordsOf, ReadJsonAsRecognisersWriteIt) {
          R"({"words": [{"word": " hello,", "start": 0.5, "end": 0.9}, {"word": " world.", "start": 1, "end": 1.5}]})",
          R"({"text": "x", "segments": [{"id": 0, "words": [{"word": "hello", "start": 0.5, "end": 0.9}]},
               {"text": " world", "start": 1, "end": 1.5}]})",
+         R"({"task": "transcribe", "duration": 3, "words": [{"word": "hello", "start": 0.5, "end": 0.9},
+              {"word": "world", "start": 1, "end": 1.5}], "segments": [{"id": 0, "text": "hello world", "start": 0, "end": 3}]})",
          R"({"word_segments": [{"word": "hello", "start": 0.5, "end": 0.9}, {"word": "world", "start": 1, "end": 1.5}]})",
          R"({"transcription": [{"offsets": {"from": 500, "to": 900}, "text": " hello"},
               {"offsets": {"from": 1000, "to": 1200}, "text": " wor"},
