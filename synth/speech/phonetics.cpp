@@ -33,9 +33,9 @@ bool is_vowel(std::string_view symbol) {
     constexpr std::string_view kSyllabic[] = {"\u0329", "\u030d"};
     for (const std::string_view mark : kSyllabic)
         if (symbol.find(mark) != std::string_view::npos) return true;
-    static constexpr std::string_view kVowels[] = {"a", "e", "i", "o", "u", "y", "æ", "ø", "œ", "ɐ", "ɑ", "ɒ",
-                                                   "ɔ", "ə", "ɘ", "ɚ", "ɛ", "ɜ", "ɝ", "ɞ", "ɤ", "ɨ", "ɪ", "ɯ",
-                                                   "ɵ", "ɶ", "ʉ", "ʊ", "ʌ", "ʏ", "ᵻ", "ᵿ", "ä", "ɐ̃"};
+    static constexpr std::string_view kVowels[] = {
+        "a", "e", "i", "o", "u", "y", "æ", "ø", "œ", "ɐ", "ɑ", "ɒ", "ɔ", "ə", "ɘ", "ɚ", "ɛ", "ɜ", "ɝ", "ɞ",
+        "ɤ", "ɨ", "ɪ", "ɯ", "ɵ", "ɶ", "ʉ", "ʊ", "ʌ", "ʏ", "ᵻ", "ᵿ", "ä", "ɐ̃", "ã", "ẽ", "ĩ", "õ", "ũ"};
     return std::any_of(std::begin(kVowels), std::end(kVowels),
                        [&](std::string_view vowel) { return symbol.starts_with(vowel); });
 }

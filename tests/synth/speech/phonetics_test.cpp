@@ -37,7 +37,7 @@ TEST(Phonetics, ReadIpa) {
 }
 
 TEST(Phonetics, KnowVowelsFromConsonants) {
-    for (const char* vowel : {"a", "aɪ", "ɑ̃", "øː", "ᵻ", "ɚ", "l̩", "y"})
+    for (const char* vowel : {"a", "õ", "o\u0303", "aɪ", "ɑ̃", "øː", "ᵻ", "ɚ", "l̩", "y"})
         EXPECT_TRUE(is_vowel(vowel)) << vowel;
     for (const char* consonant : {"p", "tʃ", "ɥ", "w", "l", "ʁ", "_", "", "ŋ"})
         EXPECT_FALSE(is_vowel(consonant)) << consonant;

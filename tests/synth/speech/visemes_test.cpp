@@ -130,6 +130,13 @@ TEST(ShapeMouth, RoundsTheLipsBeforeARoundedVowel) {
     EXPECT_GT(at(spread, 20, frame_at(0.15)), at(round, 20, frame_at(0.15)) + 0.5);
 }
 
+TEST(ShapeMouth, KnowsNasalVowelsHoweverTheirTildeIsWritten) {
+    for (const char* const vowel : {"a", "e", "i", "o", "u"})
+        EXPECT_EQ(mouth_of(speech_of("b " + std::string(vowel) + "\u0303")).intensities,
+                  mouth_of(speech_of("b " + std::string(vowel))).intensities);
+    EXPECT_EQ(mouth_of(speech_of("b ã ẽ ĩ õ ũ")).intensities, mouth_of(speech_of("b a e i o u")).intensities);
+}
+
 TEST(ShapeMouth, GoesThroughADiphthong) {
     const FaceTrack track = mouth_of(speech_of("aʊ", 0, 0.3));
     EXPECT_LT(peak_of(track, 26, 0, 0.3), frame_at(0.18));
