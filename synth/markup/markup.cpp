@@ -1,5 +1,6 @@
 #include "synth/markup/markup.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <system_error>
@@ -39,13 +40,17 @@ MarkupSource checked(const MarkupSource& source) {
     return clean;
 }
 
+// One word with any ending, such as "talk.docx", or any name with the ending of a text.
 bool looks_like_a_file(std::string_view text) {
     const std::size_t dot = text.rfind('.');
     if (dot == std::string_view::npos || text.find('\n') != std::string_view::npos) return false;
-    const std::string ending = to_lower(text.substr(dot));
-    for (const std::string_view known : {".txt", ".xml", ".aplm", ".apml", ".bml", ".ssml"})
+    const std::string ending = to_lower(text.substr(dot + 1));
+    for (const std::string_view known : {"txt", "xml", "aplm", "apml", "bml", "ssml"})
         if (ending == known) return true;
-    return false;
+    const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+    const auto is_of_ending = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); };
+    return text.find_first_of(" \t") == std::string_view::npos && ending.size() >= 2 && ending.size() <= 5 &&
+           is_letter(ending[0]) && std::ranges::all_of(ending, is_of_ending);
 }
 
 bool is_file(const std::string& text) {

@@ -38,7 +38,7 @@ MarkedText parse_marked_text(const MarkupSource& source, MarkupLanguage language
 MarkedText parse_marked_text(const MarkupSource& source);  // in the language that it is recognised as
 
 // What an option may hold: the name of a file, or the text itself. What has the form of a file's name
-// ("talk.aplm") and is none is refused.
+// ("my talk.aplm", "talk.docx") and is none is refused.
 MarkupSource read_markup_source(const std::string& file_or_text, std::string_view option);
 
 }  // namespace chironomia

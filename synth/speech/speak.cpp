@@ -163,6 +163,14 @@ void expect_read(const SpeakRequest& request, const std::vector<std::string>& pa
     refuse_letters(*first, request.voice.language);
 }
 
+// " (did you mean de?)" of "de-DE", and of "fr-FR" fr-fr.
+std::string hint_at_language(const std::string& wrong, const std::vector<std::string>& names) {
+    const std::string lower = to_lower(wrong);
+    for (const std::string& meant : {lower, lower.substr(0, lower.find_first_of("-_"))})
+        if (std::ranges::find(names, meant) != names.end()) return format(" (did you mean {}?)", meant);
+    return "";
+}
+
 //   most_spelt   of its characters, share that makes no sense
 SpeakReply ask(SpeakRequest request, double most_spelt) {
     const std::size_t words = request.words.size();
@@ -173,8 +181,8 @@ SpeakReply ask(SpeakRequest request, double most_spelt) {
         case SpeakReply::Outcome::no_voices:
             refuse_voices();
         case SpeakReply::Outcome::no_language:
-            throw Error(format("espeak-ng: no voice speaks \"{}\"; write one of {}", request.voice.language,
-                               join(reply.names)));
+            throw Error(format("espeak-ng: no voice speaks \"{}\"{}; write one of {}", request.voice.language,
+                               hint_at_language(request.voice.language, reply.names), join(reply.names)));
         case SpeakReply::Outcome::no_variant:
             throw Error(format("espeak-ng: there is no variant \"{}\" of a voice; write one of {}",
                                request.voice.variant, join(reply.names)));

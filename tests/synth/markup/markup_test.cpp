@@ -104,6 +104,11 @@ TEST(ReadMarkupSource, TakesAFileOrTheTextItself) {
     EXPECT_EQ(read_markup_source("Hello, you.", "--text").name, "--text");
     EXPECT_EQ(refusal_of([] { read_markup_source("nowhere/talk.bml", "--text"); }),
               "--text: \"nowhere/talk.bml\" is no file; check the path, or write the text itself");
+    for (const char* name : {"talk.docx", "notes/talk.md", "my talk.txt"})
+        EXPECT_THAT(refusal_of([&] { read_markup_source(name, "--text"); }),
+                    ::testing::HasSubstr("is no file"));
+    for (const char* text : {"Look at talk.docx", "3.14", "Hm...", "U.S.A."})
+        EXPECT_EQ(read_markup_source(text, "--text").text, text);
 }
 
 }  // namespace

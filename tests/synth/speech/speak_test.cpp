@@ -318,6 +318,9 @@ TEST(Speak, RefusesALanguageThatNobodySpeaks) {
     const std::string message = refusal_of([] { speak("Hello", "xx"); });
     EXPECT_THAT(message, ::testing::StartsWith("espeak-ng: no voice speaks \"xx\"; write one of af, "));
     EXPECT_THAT(message, HasSubstr(", de, el, en, en-029, en-gb, en-gb-scotland, "));
+    EXPECT_THAT(
+        refusal_of([] { speak("Hallo", "de-DE"); }),
+        ::testing::StartsWith("espeak-ng: no voice speaks \"de-DE\" (did you mean de?); write one of af, "));
 }
 
 TEST(Speak, RefusesAVariantThatIsNotThere) {
