@@ -8,6 +8,8 @@
 #include "skinning/gltf/gltf_mesh.h"
 #include "skinning/gltf/gltf_scene.h"
 #include "skinning/gltf/ik_feet.h"
+#include "skinning/gltf/rigify_joints.h"
+#include "skinning/gltf/unmirror.h"
 #include "skinning/humanoid/human_materials.h"
 #include "skinning/humanoid/humanoid_map.h"
 #include "skinning/humanoid/second_armatures.h"
@@ -18,6 +20,23 @@ namespace {
 
 constexpr const char* kFeetMoved =
     "its feet hang beside its legs, for inverse kinematics; they were hung from the lower legs";
+constexpr const char* kRigifyJoined =
+    "its DEF- joints hang from Rigify's controls or from nothing; they were hung from one another";
+
+// A file with its joints hanging as a body does, and notes of what hung elsewhere.
+struct JoinedFile {
+    GltfFile file;
+    std::vector<std::string> notes;
+};
+
+JoinedFile open_joined(const std::filesystem::path& path) {
+    auto [rigify, rigify_moved] = with_rigify_joints_joined(open_gltf(path));
+    auto [file, feet_moved] = with_feet_on_legs(std::move(rigify));
+    JoinedFile joined{.file = std::move(file), .notes = {}};
+    if (rigify_moved) joined.notes.emplace_back(kRigifyJoined);
+    if (feet_moved) joined.notes.emplace_back(kFeetMoved);
+    return joined;
+}
 
 HumanoidGuess guess_humanoid(const GltfScene& scene) {
     const Skeleton& skeleton = scene.avatar.skeleton;
@@ -27,6 +46,7 @@ HumanoidGuess guess_humanoid(const GltfScene& scene) {
 
 Avatar made_upright(GltfScene& scene, HumanoidGuess guess) {
     scene.avatar.humanoid = guess.map;
+    unmirror(scene.avatar);
     finish_human_materials(scene.avatar);
     for (std::string& note : guess.notes) scene.avatar.humanoid_notes.push_back(std::move(note));
     join_second_armatures(scene.avatar);
@@ -69,20 +89,20 @@ GltfScene read_gltf_parts(const GltfFile& file, SceneNeed need) {
 }
 
 Avatar read_avatar(const std::filesystem::path& path) {
-    const auto [file, feet_moved] = with_feet_on_legs(open_gltf(path));
+    const auto [file, notes] = open_joined(path);
     GltfScene scene = read_gltf_parts(file);
     HumanoidGuess guess = guess_humanoid(scene);
-    if (feet_moved) guess.notes.emplace_back(kFeetMoved);
+    guess.notes.insert(guess.notes.end(), notes.begin(), notes.end());
     if (!guess.refusal.empty())
         throw Error(format("{}: is no humanoid: {}; use a humanoid avatar", file.name, guess.refusal));
     return made_upright(scene, std::move(guess));
 }
 
 Avatar read_avatar_or_scene(const std::filesystem::path& path) {
-    const auto [file, feet_moved] = with_feet_on_legs(open_gltf(path));
+    const auto [file, notes] = open_joined(path);
     GltfScene scene = read_gltf_parts(file);
     HumanoidGuess guess = guess_humanoid(scene);
-    if (feet_moved) guess.notes.emplace_back(kFeetMoved);
+    guess.notes.insert(guess.notes.end(), notes.begin(), notes.end());
     if (guess.refusal.empty()) return made_upright(scene, std::move(guess));
     scene.avatar.humanoid_notes.push_back("is no humanoid: " + guess.refusal);
     return std::move(scene.avatar);

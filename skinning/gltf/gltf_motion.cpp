@@ -13,6 +13,7 @@ namespace chironomia {
 namespace {
 
 constexpr double kMostFrames = 1e6;
+constexpr float kUnchanged = 1e-6f;  // of a value from key to key: rounding [m, or of a unit quaternion]
 
 // The keys of the track that has most of them.
 const std::vector<float>& longest_keys(const Animation& animation) {
@@ -44,8 +45,8 @@ double rate_of_keys(const std::vector<float>& times, const std::string& where) {
     return rate_of_step(step);
 }
 
-void note_left_out(Motion& motion, const AnimatedScene& file) {
-    const std::vector<AnimationTrack>& tracks = file.animations[0].tracks;
+void note_left_out(Motion& motion, const Animation& animation) {
+    const std::vector<AnimationTrack>& tracks = animation.tracks;
     const auto count = [&](AnimatedPath path) {
         return std::count_if(tracks.begin(), tracks.end(), [&](const auto& t) { return t.path == path; });
     };
@@ -53,6 +54,33 @@ void note_left_out(Motion& motion, const AnimatedScene& file) {
         motion.notes.push_back(format("scales of {} nodes are left out", scales));
     if (const auto weights = count(AnimatedPath::weights); weights > 0)
         motion.notes.push_back(format("morph weights of {} nodes are left out", weights));
+}
+
+// Whether it moves or turns any joint: a rest pose that was saved as an action, such as a T-pose, does not.
+bool moves_joints(const Animation& animation) {
+    return std::ranges::any_of(animation.tracks, [](const AnimationTrack& track) {
+        const bool of_joint = track.path == AnimatedPath::translation || track.path == AnimatedPath::rotation;
+        if (!of_joint || track.times.size() < 2) return false;
+        const size_t key = track.values.size() / track.times.size();
+        for (size_t n = key; n < track.values.size(); ++n) {
+            if (std::abs(track.values[n] - track.values[n - key]) > kUnchanged) return true;
+        }
+        return false;
+    });
+}
+
+// The first animation that moves, or the first one.
+size_t chosen_animation(const std::vector<Animation>& animations) {
+    const auto found = std::ranges::find_if(animations, moves_joints);
+    return found == animations.end() ? 0 : static_cast<size_t>(found - animations.begin());
+}
+
+std::string name_in_file(const AnimatedScene& scene, size_t chosen) {
+    const size_t count = scene.animations.size();
+    const std::string& name = scene.animations[chosen].name;
+    if (chosen == 0) return format("glTF: animation \"{}\", the first of {}", name, count);
+    return format("glTF: animation \"{}\", number {} of {}: those before it are still", name, chosen + 1,
+                  count);
 }
 
 }  // namespace
@@ -64,9 +92,10 @@ bool is_skeleton_alone(const std::filesystem::path& file) {
 Motion read_gltf_motion(const std::filesystem::path& file, std::optional<double> fps) {
     const std::string where = file.string();
     const AnimatedScene scene = read_animated_scene(file, SceneNeed::joints);
-    if (scene.animations.empty() || scene.animations[0].tracks.empty())
+    const size_t chosen = chosen_animation(scene.animations);
+    if (scene.animations.empty() || scene.animations[chosen].tracks.empty())
         throw Error(format("{}: has no animation that moves anything; a motion is expected", where));
-    const Animation& animation = scene.animations[0];
+    const Animation& animation = scene.animations[chosen];
     const double rate = fps ? *fps : rate_of_keys(longest_keys(animation), where);
     if (!(animation.seconds * rate < kMostFrames)) {
         throw Error(
@@ -80,8 +109,7 @@ Motion read_gltf_motion(const std::filesystem::path& file, std::optional<double>
                   .frames = static_cast<size_t>(std::lround(animation.seconds * rate)) + 1,
                   .joints = JointTrack{.skeleton = scene.scene.skeleton, .turns = {}, .translations = {}},
                   .keypoints = {},
-                  .notes = {format("glTF: animation \"{}\", the first of {}", animation.name,
-                                   scene.animations.size())}};
+                  .notes = {name_in_file(scene, chosen)}};
     for (size_t t = 0; t < motion.frames; ++t) {
         const Pose pose = pose_at(scene.scene, animation, static_cast<double>(t) / rate);
         for (const Transform& joint : pose.joints) {
@@ -89,7 +117,7 @@ Motion read_gltf_motion(const std::filesystem::path& file, std::optional<double>
             motion.joints->translations.push_back(joint.translation);
         }
     }
-    note_left_out(motion, scene);
+    note_left_out(motion, animation);
     motion.notes.push_back(format("rate: {:.6g} frames/s{}", rate, fps ? ", set by hand" : ""));
     return motion;
 }

@@ -8,8 +8,9 @@
 
 namespace chironomia {
 
-// The first animation of the file, all nodes of its scene as joints, in the file's own axes. The rate is that
-// of its keys where they lie evenly. Scales and morph weights that move are left out, which a note says.
+// The first animation of the file that moves or turns a joint, else its first one; all nodes of its scene as joints, in
+// the file's own axes. The rate is that of its keys where they lie evenly. Scales and morph weights that move are left
+// out, which a note says.
 //   fps   the rate at which the animation is sampled, instead of that of its keys
 // Throws Error as read_animated_scene, if there is no animation, if it moves nothing, or if its keys lie
 // unevenly and no rate is given.

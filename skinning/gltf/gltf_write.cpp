@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cstring>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files/files.h"
@@ -14,6 +16,8 @@
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/gltf/gltf_nodes.h"
 #include "skinning/gltf/ik_feet.h"
+#include "skinning/gltf/rigify_joints.h"
+#include "skinning/gltf/unmirror.h"
 #include "skinning/humanoid/second_armatures.h"
 #include "skinning/humanoid/stance.h"
 
@@ -307,13 +311,32 @@ GltfFile file_of(const Skeleton& skeleton) {
     return {.name = "skeleton", .json = std::move(json), .buffers = {}, .images = {}};
 }
 
+// An avatar with poses, as it is written.
+struct PosedAvatar {
+    Avatar avatar;
+    std::vector<Pose> poses;  // (T)
+};
+
+// In the axes of its file, whose first joint is joint `first` of the avatar.
+PosedAvatar in_axes_of_file(const Avatar& avatar, std::vector<Pose> poses, const Skeleton& file,
+                            size_t first) {
+    PosedAvatar written{.avatar = avatar, .poses = std::move(poses)};
+    for (size_t j = 0; j < file.joints.size(); ++j)
+        written.avatar.skeleton.joints[first + j].rest = file.joints[j].rest;
+    for (Pose& pose : written.poses) {
+        const auto begin = pose.joints.begin() + static_cast<std::ptrdiff_t>(first);
+        std::ranges::copy(mirrored_back(file, {begin, pose.joints.end()}), begin);
+    }
+    return written;
+}
+
 }  // namespace
 
 void write_animated_glb(const std::filesystem::path& out, const std::filesystem::path& avatar_file,
                         const AnimatedAvatar& animated) {
     const auto& [avatar, poses, fps] = animated;
     assert(!poses.empty() && fps > 0);
-    GltfFile file = with_feet_on_legs(open_gltf(avatar_file)).file;
+    GltfFile file = with_feet_on_legs(with_rigify_joints_joined(open_gltf(avatar_file)).file).file;
     const std::vector<Pose> all = poses_of_all_armatures(avatar, poses);
     NodeTree tree = read_nodes(file, *parse_model(file));
     const size_t joints = avatar.skeleton.joints.size();
@@ -324,13 +347,20 @@ void write_animated_glb(const std::filesystem::path& out, const std::filesystem:
                format("has {} nodes and the avatar {} joints; give the file that the avatar was read from",
                       tree.node_of_joint.size(), joints));
     }
+    std::optional<PosedAvatar> mirrored;
+    if (has_negative_scale(tree.skeleton))
+        mirrored = in_axes_of_file(avatar, all, tree.skeleton, uprighted ? 1 : 0);
+    const Avatar& written = mirrored ? mirrored->avatar : avatar;
     try {
         Glb glb(std::move(file));
         name_scene(glb, tree);
         std::vector<int> node_of_joint = tree.node_of_joint;
         if (uprighted) node_of_joint.insert(node_of_joint.begin(), add_upright_node(glb, avatar));
-        write_rest_transforms(glb, avatar, node_of_joint);
-        Bake bake{.glb = glb, .avatar = avatar, .poses = all, .node_of_joint = node_of_joint};
+        write_rest_transforms(glb, written, node_of_joint);
+        Bake bake{.glb = glb,
+                  .avatar = written,
+                  .poses = mirrored ? mirrored->poses : all,
+                  .node_of_joint = node_of_joint};
         add_animation(bake, fps);
         write_bytes(out, glb.bytes());
     } catch (const Json::exception& fault) {

@@ -3,12 +3,12 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "skinning/gltf/gltf_nodes.h"
+#include "skinning/gltf/rehang.h"
 #include "skinning/humanoid/humanoid_names.h"
 
 namespace chironomia {
@@ -75,16 +75,6 @@ std::optional<IkFoot> ik_foot(const NamedNodes& nodes, Side side) {
     return IkFoot{.foot = foot, .lower_leg = lower};
 }
 
-bool is_sheared(const Mat4& matrix) {
-    Mat3 axes(matrix);
-    for (int axis = 0; axis < 3; ++axis) {
-        if (length(axes[axis]) < 1e-12f) return true;
-        axes[axis] = normalize(axes[axis]);
-    }
-    return std::abs(dot(axes[0], axes[1])) > 0.001f || std::abs(dot(axes[1], axes[2])) > 0.001f ||
-           std::abs(dot(axes[2], axes[0])) > 0.001f;
-}
-
 // lower_leg_from_foot at rest; nothing if the foot does not lie where the leg may end.
 std::optional<Transform> rest_of_foot(const GltfFile& file, const NodeTree& tree, const IkFoot& feet) {
     const int foot = tree.joint_of_node[static_cast<size_t>(feet.foot)],
@@ -96,36 +86,7 @@ std::optional<Transform> rest_of_foot(const GltfFile& file, const NodeTree& tree
     const auto place = [&](int joint) { return origin(world[static_cast<size_t>(joint)]); };
     const float thigh = distance(place(upper), place(lower)), shin = distance(place(lower), place(foot));
     if (shin < thigh / 3 || shin > 2 * thigh) return std::nullopt;
-    const Mat4 rest = inverse(world[static_cast<size_t>(lower)]) * world[static_cast<size_t>(foot)];
-    if (is_sheared(rest)) return std::nullopt;
-    return decompose(rest, file, "a foot");
-}
-
-void drop_from(Json& holder, const char* key, int node) {
-    if (!holder.contains(key)) return;
-    Json kept = Json::array();
-    for (const Json& child : holder[key]) {
-        if (child != node) kept.push_back(child);
-    }
-    if (kept.empty())
-        holder.erase(key);
-    else
-        holder[key] = std::move(kept);
-}
-
-void hang(Json& json, int node, int onto, const Transform& rest) {
-    for (Json& other : json["nodes"]) drop_from(other, "children", node);
-    if (json.contains("scenes")) {
-        for (Json& scene : json["scenes"]) drop_from(scene, "nodes", node);
-    }
-    json["nodes"][static_cast<size_t>(onto)]["children"].push_back(node);
-    Json& foot = json["nodes"][static_cast<size_t>(node)];
-    foot.erase("matrix");
-    const Vec3 &t = rest.translation, &s = rest.scale;
-    const Quat& q = rest.rotation;
-    foot["translation"] = {t.x, t.y, t.z};
-    foot["rotation"] = {q.x, q.y, q.z, q.w};
-    foot["scale"] = {s.x, s.y, s.z};
+    return rest_below(file, world, foot, lower);
 }
 
 }  // namespace
@@ -137,8 +98,8 @@ FeetOnLegs with_feet_on_legs(GltfFile file) {
     const NodeTree tree = read_nodes(file, *parse_model(file));
     const auto left_rest = rest_of_foot(file, tree, *left), right_rest = rest_of_foot(file, tree, *right);
     if (!left_rest || !right_rest) return {.file = std::move(file)};
-    hang(file.json, left->foot, left->lower_leg, *left_rest);
-    hang(file.json, right->foot, right->lower_leg, *right_rest);
+    hang_node(file.json, left->foot, left->lower_leg, *left_rest);
+    hang_node(file.json, right->foot, right->lower_leg, *right_rest);
     return {.file = std::move(file), .moved = true};
 }
 

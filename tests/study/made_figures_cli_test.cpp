@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <map>
 #include <set>
 
 #include "core/files/files.h"
@@ -110,6 +111,98 @@ TEST_F(MadeFiguresCli, AreShownAloneWhereSomebodyElseStandsInTheFile) {
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("x.glb: 1 of its meshes (Bob) hang on no joint of the figure"));
     EXPECT_EQ(read_image(frames() / "0.png").rgba, alone.rgba);
+}
+
+// As Blender writes an armature that was mirrored by a scale of -1: what is named left stands on the right.
+TEST_F(MadeFiguresCli, AreDrawnWholeBelowAMirroredNode) {
+    const Frame plain = picture_of({.textured = false});
+    testing::GltfBuilder file = testing::made_figure({.textured = false});
+    Json& nodes = file.json["nodes"];
+    nodes.push_back({{"name", "Armature"}, {"scale", {-1, 1, 1}}, {"children", {0}}});
+    file.json["scenes"][0]["nodes"][0] = nodes.size() - 1;
+    file.write_glb(folder_ / "x.glb");
+    const Outcome outcome = render(folder_ / "x.glb");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_LT(difference(read_image(frames() / "0.png"), plain), 0.005);
+}
+
+// "mixamorig:LeftArm" is "DEF-upper_arm.L".
+std::string rigify_name(std::string name) {
+    static const std::map<std::string, std::string> kNames = {
+        {"Hips", "spine"},    {"Spine", "spine.003"}, {"Neck", "spine.004"}, {"Head", "spine.006"},
+        {"Arm", "upper_arm"}, {"ForeArm", "forearm"}, {"Hand", "hand"},      {"UpLeg", "thigh"},
+        {"Leg", "shin"},      {"Foot", "foot"},       {"ToeBase", "toe"}};
+    name = name.substr(name.find(':') + 1);
+    std::string side;
+    for (const std::string word : {"Left", "Right"}) {
+        if (!name.starts_with(word)) continue;
+        side = word == "Left" ? ".L" : ".R";
+        name = name.substr(word.size());
+    }
+    return "DEF-" + kNames.at(name) + side;
+}
+
+// The joints of the figure by their numbers: hips 0, spine 1, neck 2, arms 4 and 7, legs 10 and 14.
+// With the deform joints of Rigify as Blender exports them: the trunk beside the arms and legs, which hang from the
+// joints that Rigify's controls move; or, where deform joints alone were exported, from the armature.
+testing::GltfBuilder rigify_figure(bool with_controls) {
+    testing::GltfBuilder file = testing::made_figure({});
+    Json& nodes = file.json["nodes"];
+    const size_t mesh_node = nodes.size() - 1;
+    for (size_t j = 0; j < mesh_node; ++j) nodes[j]["name"] = rigify_name(nodes[j]["name"]);
+    nodes[0]["children"] = {1};
+    nodes[1]["children"] = {2};
+    Json armature = {{"name", "rig"}, {"children", {0}}};
+    if (with_controls) {
+        nodes.push_back({{"name", "ORG-spine"},
+                         {"translation", nodes[0]["translation"]},
+                         {"children", {10, 14, nodes.size() + 1}}});
+        nodes.push_back(
+            {{"name", "ORG-spine.003"}, {"translation", nodes[1]["translation"]}, {"children", {4, 7}}});
+        armature["children"].push_back(nodes.size() - 2);
+    } else {
+        for (const size_t limb : {4, 7, 10, 14}) {
+            for (size_t axis = 0; axis < 3; ++axis) {
+                float place = nodes[limb]["translation"][axis].get<float>();
+                place += nodes[0]["translation"][axis].get<float>();
+                if (limb < 10) place += nodes[1]["translation"][axis].get<float>();
+                nodes[limb]["translation"][axis] = place;
+            }
+            armature["children"].push_back(limb);
+        }
+    }
+    nodes.push_back(std::move(armature));
+    file.json["scenes"][0]["nodes"][0] = nodes.size() - 1;
+    return file;
+}
+
+TEST_F(MadeFiguresCli, AreDrawnWholeWithRigifysDeformJointsInPieces) {
+    const Frame plain = picture_of({});
+    for (const bool with_controls : {true, false}) {
+        SCOPED_TRACE(with_controls ? "below its controls" : "alone");
+        rigify_figure(with_controls).write_glb(folder_ / "x.glb");
+        const Outcome outcome = render(folder_ / "x.glb");
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_LT(difference(read_image(frames() / "0.png"), plain), 0.005);
+        const Outcome info = run_chironomia({"info", (folder_ / "x.glb").string()});
+        EXPECT_THAT(info.out, HasSubstr("they were hung from one another"));
+        EXPECT_THAT(info.out, HasSubstr("DEF-spine.003"));
+    }
+}
+
+// Blender writes each action of a file, in the order of their names.
+TEST_F(MadeFiguresCli, MoveByTheFirstAnimationThatIsNotStill) {
+    testing::GltfBuilder file = testing::made_figure({});
+    add_animation(file, {.times = {0}, .values = {0, 1, 0}}, "A-pose");
+    add_animation(file, {.times = {0, 0.5f, 1}, .values = {0, 1, 0, 0, 1.1f, 0, 0, 1, 0}}, "Talk");
+    file.write_glb(folder_ / "x.glb");
+    const fs::path motion = folder_ / "x.h5";
+    const Outcome made =
+        run_chironomia({"convert", "--motion", (folder_ / "x.glb").string(), "--out", motion.string()});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Outcome info = run_chironomia({"info", motion.string()});
+    EXPECT_THAT(info.out, HasSubstr("3 frames at 2 frames/s"));
+    EXPECT_THAT(info.out, HasSubstr("animation \"Talk\", number 2 of 2: those before it are still"));
 }
 
 TEST_F(MadeFiguresCli, AreRefusedWhenTheyAreDamaged) {
