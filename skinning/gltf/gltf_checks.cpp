@@ -141,6 +141,7 @@ void check_materials(const GltfFile& file) {
         check_factor(specular, "specularFactor", kShare);
         check_list(specular, "specularColorFactor", 3, {.least = 0});
         check_factor(part(extensions, "KHR_materials_ior"), "ior", {.least = 0});
+        check_factor(part(extensions, "KHR_materials_transmission"), "transmissionFactor", kShare);
         check_one_of(material, "alphaMode", {"OPAQUE", "MASK", "BLEND"});
         check_textures(material);
     });

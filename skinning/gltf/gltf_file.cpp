@@ -36,6 +36,7 @@ constexpr std::array kSupportedExtensions = {
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_specular",
     "KHR_materials_ior",
+    "KHR_materials_transmission",
     "KHR_materials_clearcoat",
     "KHR_materials_anisotropy",
     "KHR_materials_sheen",

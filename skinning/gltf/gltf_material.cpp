@@ -22,9 +22,11 @@ constexpr const char* kTextureTransform = "KHR_texture_transform";
 constexpr const char* kAnisotropy = "KHR_materials_anisotropy";
 constexpr const char* kIor = "KHR_materials_ior";
 constexpr const char* kSpecular = "KHR_materials_specular";
-constexpr std::array<std::string_view, 7> kReadExtensions = {kAnisotropy,
+constexpr const char* kTransmission = "KHR_materials_transmission";
+constexpr std::array<std::string_view, 8> kReadExtensions = {kAnisotropy,
                                                              kIor,
                                                              kSpecular,
+                                                             kTransmission,
                                                              "KHR_materials_clearcoat",
                                                              "KHR_materials_emissive_strength",
                                                              "KHR_materials_pbrSpecularGlossiness",
@@ -261,6 +263,19 @@ Vec3 reflectance_in(const tinygltf::ExtensionMap& extensions) {
     return reflectance;
 }
 
+// Light that goes through is drawn as if the surface covered less of what is behind it, down to what it mirrors. What is
+// seen through it is neither tinted nor bent. Cut-out surfaces stay as they are.
+void let_light_through(const tinygltf::ExtensionMap& extensions, Material& material) {
+    const auto found = extensions.find(kTransmission);
+    if (found == extensions.end() || material.alpha_mode == AlphaMode::mask) return;
+    const float through = number_in(found->second, "transmissionFactor", 0) * (1 - material.metallic);
+    if (through <= 0) return;
+    if (material.alpha_mode == AlphaMode::opaque) material.base_colour.a = 1;
+    const float mirrored = std::max({material.reflectance.r, material.reflectance.g, material.reflectance.b});
+    material.base_colour.a *= 1 - through * (1 - mirrored);
+    material.alpha_mode = AlphaMode::blend;
+}
+
 Material material_without_textures(const tinygltf::Material& source) {
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     Material material;
@@ -277,6 +292,7 @@ Material material_without_textures(const tinygltf::Material& source) {
     if (source.alphaMode == "MASK") material.alpha_mode = AlphaMode::mask;
     if (source.alphaMode == "BLEND") material.alpha_mode = AlphaMode::blend;
     material.reflectance = reflectance_in(source.extensions);
+    let_light_through(source.extensions, material);
     const auto coat = source.extensions.find("KHR_materials_clearcoat");
     if (coat != source.extensions.end()) {
         material.coat = std::clamp(number_in(coat->second, "clearcoatFactor", 0), 0.0f, 1.0f);
@@ -311,6 +327,8 @@ void MaterialReader::add(const tinygltf::Material& source) {
         if (std::ranges::find(kReadExtensions, extension) == kReadExtensions.end()) ++unread_[extension];
         if (extension == kSpecular && (value.Has("specularTexture") || value.Has("specularColorTexture")))
             ++unread_[format("a texture of {}", kSpecular)];
+        if (extension == kTransmission && value.Has("transmissionTexture"))
+            ++unread_[format("a texture of {}", kTransmission)];
     }
     Material material = material_without_textures(source);
     Slot base = slot_of(pbr.baseColorTexture);

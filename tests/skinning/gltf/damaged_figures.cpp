@@ -327,6 +327,10 @@ const Kind kMaterials[] = {
      [](auto& f, auto&) {
          f.json["materials"][0]["extensions"]["KHR_materials_specular"]["specularColorFactor"] = {1, -1, 1};
      }},
+    {"transmission above 1", "its transmissionFactor is 3, a number from 0 to 1",
+     [](auto& f, auto&) {
+         f.json["materials"][0]["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 3;
+     }},
     {"index of refraction below 0", "its ior is -1",
      [](auto& f, auto&) { f.json["materials"][0]["extensions"]["KHR_materials_ior"]["ior"] = -1; }},
     {"alpha that is none", "its alphaMode is \"GLASS\", one of \"OPAQUE\", \"MASK\", \"BLEND\"",

@@ -457,16 +457,40 @@ TEST(ReadGltfScene, NotesWhatItLeavesOutOfMaterials) {
     const Json dull = {{"extensions",
                         {{"KHR_materials_sheen", Json::object()},
                          {"KHR_materials_specular", {{"specularTexture", {{"index", 0}}}}}}}};
-    const Json glass = {
-        {"extensions",
-         {{"KHR_materials_transmission", Json::object()}, {"KHR_materials_unlit", Json::object()}}}};
+    const Json glass = {{"extensions",
+                         {{"KHR_materials_transmission", {{"transmissionTexture", {{"index", 0}}}}},
+                          {"KHR_materials_unlit", Json::object()}}}};
     file.json["materials"] = {dull, glass, dull};
     EXPECT_THAT(
         read(file).humanoid_notes,
         IsSupersetOf(
             {"KHR_materials_sheen of 2 materials is not read; what it changes is left out",
              "a texture of KHR_materials_specular of 2 materials is not read; what it changes is left out",
-             "KHR_materials_transmission of 1 material is not read; what it changes is left out"}));
+             "a texture of KHR_materials_transmission of 1 material is not read; what it changes is left out"}));
+}
+
+// Glass covers as much as it mirrors; a metal lets nothing through, and a cut-out surface stays one.
+TEST(ReadGltfScene, SeesThroughWhatLetsLightThrough) {
+    GltfBuilder file = triangle_file();
+    const auto with = [](double factor, double metallic, const char* alpha) {
+        return Json{
+            {"alphaMode", alpha},
+            {"pbrMetallicRoughness", {{"metallicFactor", metallic}, {"baseColorFactor", {1, 1, 1, 0.5}}}},
+            {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", factor}}}}}};
+    };
+    file.json["materials"] = {with(1, 0, "OPAQUE"), with(0.5, 0, "BLEND"), with(1, 1, "OPAQUE"),
+                              with(0, 0, "OPAQUE"), with(1, 0, "MASK")};
+    const Avatar scene = read(file);
+    const auto is = [&](std::size_t material, AlphaMode mode, float alpha) {
+        EXPECT_EQ(scene.materials[material].alpha_mode, mode) << material;
+        if (mode == AlphaMode::blend)
+            EXPECT_NEAR(scene.materials[material].base_colour.a, alpha, 1e-6f) << material;
+    };
+    is(0, AlphaMode::blend, 0.04f);
+    is(1, AlphaMode::blend, 0.26f);
+    is(2, AlphaMode::opaque, 1);
+    is(3, AlphaMode::opaque, 1);
+    is(4, AlphaMode::mask, 0.5f);
 }
 
 // A mirrored matrix keeps its mirror in the scale.
