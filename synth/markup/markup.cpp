@@ -13,6 +13,7 @@
 #include "synth/markup/script_words.h"
 #include "synth/markup/ssml.h"
 #include "synth/markup/text_rules.h"
+#include "synth/markup/vocabulary.h"
 #include "synth/markup/xml.h"
 
 namespace chironomia {
@@ -27,6 +28,20 @@ MarkedText parse_plain(const MarkupSource& source) {
         throw Error(format("{}:1:1: holds no word; write what is to be said", source.name));
     text.marks = marks_by_rules(text, source.language);
     return text;
+}
+
+MarkedText parse(const MarkupSource& source, MarkupLanguage language) {
+    switch (language) {
+        case MarkupLanguage::plain:
+            return parse_plain(source);
+        case MarkupLanguage::aplm:
+            return parse_aplm(source);
+        case MarkupLanguage::bml:
+            return parse_bml(source);
+        case MarkupLanguage::ssml:
+            return parse_ssml(source);
+    }
+    return {};
 }
 
 // Without the mark that some editors put before UTF-8.
@@ -82,17 +97,15 @@ MarkupLanguage recognise_markup(std::string_view text) {
 
 MarkedText parse_marked_text(const MarkupSource& source, MarkupLanguage language) {
     const MarkupSource clean = checked(source);
-    switch (language) {
-        case MarkupLanguage::plain:
-            return parse_plain(clean);
-        case MarkupLanguage::aplm:
-            return parse_aplm(clean);
-        case MarkupLanguage::bml:
-            return parse_bml(clean);
-        case MarkupLanguage::ssml:
-            return parse_ssml(clean);
+    MarkedText text = parse(clean, language);
+    // An SSML that names languages is right about them.
+    if (language != MarkupLanguage::ssml || clean.text.find("xml:lang") == std::string::npos) {
+        std::vector<std::string> words;
+        for (const ScriptWord& word : text.words) words.push_back(plain_letters(word.text));
+        if (const auto other = describe_other_language(words, source.language))
+            text.notes.push_back(format("{}: {}", source.name, *other));
     }
-    return {};
+    return text;
 }
 
 MarkedText parse_marked_text(const MarkupSource& source) {

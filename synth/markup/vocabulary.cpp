@@ -1,6 +1,7 @@
 #include "synth/markup/vocabulary.h"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <utility>
 
@@ -45,6 +46,32 @@ bool matches(const Cue& cue, std::span<const std::string> words, std::size_t at)
     return true;
 }
 
+struct WordList {
+    std::string_view code, language;
+};
+constexpr std::array<WordList, 3> kWordLists = {{{"en", "English"}, {"fr", "French"}, {"de", "German"}}};
+
+// "fr" of "fr-BE"; English unless something is said.
+std::string code_of(std::string_view language) {
+    return language.empty() ? "en" : to_lower(language.substr(0, language.find_first_of("-_+")));
+}
+
+// How many of `words` are function words of `one` and not of `other`, and the first three of them.
+std::pair<std::size_t, std::vector<std::string>> words_of_one_alone(std::span<const std::string> words,
+                                                                    const Vocabulary& one,
+                                                                    const Vocabulary& other) {
+    constexpr std::size_t kShown = 3;
+    std::pair<std::size_t, std::vector<std::string>> found;
+    for (const std::string& word : words) {
+        if (!one.is_function_word(word) || other.is_function_word(word)) continue;
+        ++found.first;
+        const std::string shown = format("\"{}\"", word);
+        if (found.second.size() < kShown && std::ranges::find(found.second, shown) == found.second.end())
+            found.second.push_back(shown);
+    }
+    return found;
+}
+
 }  // namespace
 
 Vocabulary::Vocabulary(const std::string& language) : is_known_(true) {
@@ -80,21 +107,14 @@ Vocabulary::Vocabulary(const std::string& language) : is_known_(true) {
 }
 
 const Vocabulary& Vocabulary::of(std::string_view language) {
-    const std::string tongue = to_lower(language.substr(0, language.find_first_of("-_+")));
-    if (tongue == "en" || tongue.empty()) {
-        static const Vocabulary english("english");
-        return english;
-    }
-    if (tongue == "fr") {
-        static const Vocabulary french("french");
-        return french;
-    }
-    if (tongue == "de") {
-        static const Vocabulary german("german");
-        return german;
-    }
+    static const std::map<std::string, Vocabulary> known = [] {
+        std::map<std::string, Vocabulary> lists;
+        for (const WordList& list : kWordLists) lists.emplace(list.code, Vocabulary(to_lower(list.language)));
+        return lists;
+    }();
     static const Vocabulary other;
-    return other;
+    const auto found = known.find(code_of(language));
+    return found == known.end() ? other : found->second;
 }
 
 bool Vocabulary::is_function_word(std::string_view word) const {
@@ -123,6 +143,25 @@ const Cue* Vocabulary::cue_at(std::span<const std::string> words, std::size_t at
 
 std::size_t length_of(const Cue& cue) {
     return static_cast<std::size_t>(std::count(cue.phrase.begin(), cue.phrase.end(), ' ')) + 1;
+}
+
+std::optional<std::string> describe_other_language(std::span<const std::string> words,
+                                                   std::string_view language) {
+    constexpr std::size_t kFewest = 3, kTimesAsMany = 2;
+    const auto own = std::ranges::find(kWordLists, code_of(language), &WordList::code);
+    if (own == kWordLists.end()) return std::nullopt;
+    const Vocabulary& own_words = Vocabulary::of(language);
+    for (const WordList& list : kWordLists) {
+        const Vocabulary& other_words = Vocabulary::of(list.code);
+        const auto [count, shown] = words_of_one_alone(words, other_words, own_words);
+        const std::size_t count_own = words_of_one_alone(words, own_words, other_words).first;
+        if (count < kFewest || count <= kTimesAsMany * count_own) continue;
+        return format(
+            "{} of its words are {} ({}), {} {}; if it is {}, give its language: --language {}, or "
+            "\"language\" of the speaker's voice",
+            count, list.language, join(shown), count_own, own->language, list.language, list.code);
+    }
+    return std::nullopt;
 }
 
 }  // namespace chironomia

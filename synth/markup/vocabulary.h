@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -67,5 +68,11 @@ class Vocabulary {
 
 // How many words a cue has.
 std::size_t length_of(const Cue& cue);
+
+// Where `words`, in plain letters, have at least 3 function words of English, French or German that `language` has not,
+// and more than twice as many as it has of its own (both ours): what to say of it, such as '12 of its words are French
+// ("je", "vous", "dans") and 1 is English'. Nothing of a language without a list.
+std::optional<std::string> describe_other_language(std::span<const std::string> words,
+                                                   std::string_view language);
 
 }  // namespace chironomia

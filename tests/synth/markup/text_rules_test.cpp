@@ -10,6 +10,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::IsSupersetOf;
 using testing::mark_text;
@@ -18,6 +19,30 @@ using ::testing::Not;
 
 MarkedText marked(const std::string& text, const std::string& language = "en") {
     return parse_marked_text({.text = text, .language = language}, MarkupLanguage::plain);
+}
+
+TEST(MarkedText, NotesWordsOfAnotherLanguage) {
+    const auto notes = [](const std::string& text, const std::string& language) {
+        return marked(text, language).notes;
+    };
+    EXPECT_THAT(notes("Je crois que vous êtes arrivés hier, mais le train est parti sans nous.", "en-us"),
+                ElementsAre(::testing::AllOf(
+                    HasSubstr("of its words are French (\"je\", \"que\", \"vous\"), 0 English"),
+                    HasSubstr("--language fr"))));
+    EXPECT_THAT(notes("Ich glaube, dass wir das nicht mehr schaffen, aber er ist schon da.", "fr"),
+                ElementsAre(HasSubstr("are German")));
+    EXPECT_THAT(notes("I think that you have seen it, and we were not there when he left.", "de-at"),
+                ElementsAre(HasSubstr("are English")));
+    EXPECT_THAT(notes("They said je ne sais quoi, and that was all that we heard of them.", "en"), IsEmpty());
+    EXPECT_THAT(notes("One, two, three, four, five, six, seven.", "en"), IsEmpty());
+    EXPECT_THAT(notes("Je crois que vous êtes là.", "fr-be"), IsEmpty());
+    EXPECT_THAT(notes("I think that you have seen it.", "es"), IsEmpty());
+    const auto of_ssml = [](const std::string& tag) {
+        return parse_marked_text({.text = tag + "Je crois que vous êtes là.</speak>"}, MarkupLanguage::ssml)
+            .notes;
+    };
+    EXPECT_THAT(of_ssml("<speak>"), ElementsAre(HasSubstr("are French")));
+    EXPECT_THAT(of_ssml("<speak xml:lang=\"fr\">"), IsEmpty());
 }
 
 TEST(TextRules, PartThemeAndRhemeBeforeTheVerbThatSaysSomething) {
