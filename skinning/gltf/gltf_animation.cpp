@@ -284,6 +284,24 @@ AnimatedScene read_animated_scene(const std::filesystem::path& path, SceneNeed n
     return {.scene = std::move(scene.avatar), .animations = std::move(animations)};
 }
 
+std::string shown(const Animation& animation) {
+    return animation.name.empty() ? "without a name" : format("\"{}\"", animation.name);
+}
+
+size_t animation_named(const AnimatedScene& file, const std::string& asked) {
+    std::vector<std::string> known;
+    for (const Animation& animation : file.animations) {
+        if (animation.name == asked) return known.size();
+        known.push_back(format("{} {}", known.size(), shown(animation)));
+    }
+    const auto number = parse_integer(asked);
+    if (number && *number >= 0 && *number < static_cast<long long>(file.animations.size()))
+        return static_cast<size_t>(*number);
+    throw Error(
+        format("{}: has no animation \"{}\"; {}", file.scene.source, asked,
+               known.empty() ? "it has none at all, leave --animation out" : "choose one of " + join(known)));
+}
+
 Pose pose_at(const Avatar& scene, const Animation& animation, double time) {
     Pose pose = rest_pose(scene);
     for (const AnimationTrack& track : animation.tracks) apply(track, value_at(track, time), pose);

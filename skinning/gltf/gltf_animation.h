@@ -44,6 +44,12 @@ enum class SceneNeed { triangles, joints };
 // that is none, two channels of one target, or weights of a node without morphs.
 AnimatedScene read_animated_scene(const std::filesystem::path& file, SceneNeed need = SceneNeed::triangles);
 
+std::string shown(const Animation& animation);  // its name in quotes, or that it has none
+
+// The index of the animation of this name, else of this number from 0. Throws Error that lists those of the file if it
+// has none such.
+size_t animation_named(const AnimatedScene& file, const std::string& asked);
+
 // The pose at a time [s]: before its first key a track holds the first value, after its last the last. What
 // no track moves is at rest. Rotations take the shorter way round.
 // Khronos, glTF 2.0 Specification, appendix C (STEP, LINEAR, SLERP, CUBICSPLINE).

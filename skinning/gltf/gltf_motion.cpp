@@ -70,17 +70,17 @@ bool moves_joints(const Animation& animation) {
 }
 
 // The first animation that moves, or the first one.
-size_t chosen_animation(const std::vector<Animation>& animations) {
+size_t first_that_moves(const std::vector<Animation>& animations) {
     const auto found = std::ranges::find_if(animations, moves_joints);
     return found == animations.end() ? 0 : static_cast<size_t>(found - animations.begin());
 }
 
-std::string name_in_file(const AnimatedScene& scene, size_t chosen) {
+std::string name_in_file(const AnimatedScene& scene, size_t chosen, bool is_asked) {
     const size_t count = scene.animations.size();
     const std::string& name = scene.animations[chosen].name;
     if (chosen == 0) return format("glTF: animation \"{}\", the first of {}", name, count);
-    return format("glTF: animation \"{}\", number {} of {}: those before it are still", name, chosen + 1,
-                  count);
+    return format("glTF: animation \"{}\", number {} of {}{}", name, chosen + 1, count,
+                  is_asked ? "" : ": those before it are still");
 }
 
 }  // namespace
@@ -89,10 +89,11 @@ bool is_skeleton_alone(const std::filesystem::path& file) {
     return open_gltf(file).json.value("meshes", Json::array()).empty();
 }
 
-Motion read_gltf_motion(const std::filesystem::path& file, std::optional<double> fps) {
+Motion read_gltf_motion(const std::filesystem::path& file, std::optional<double> fps,
+                        const std::string& asked) {
     const std::string where = file.string();
     const AnimatedScene scene = read_animated_scene(file, SceneNeed::joints);
-    const size_t chosen = chosen_animation(scene.animations);
+    const size_t chosen = asked.empty() ? first_that_moves(scene.animations) : animation_named(scene, asked);
     if (scene.animations.empty() || scene.animations[chosen].tracks.empty())
         throw Error(format("{}: has no animation that moves anything; a motion is expected", where));
     const Animation& animation = scene.animations[chosen];
@@ -109,7 +110,7 @@ Motion read_gltf_motion(const std::filesystem::path& file, std::optional<double>
                   .frames = static_cast<size_t>(std::lround(animation.seconds * rate)) + 1,
                   .joints = JointTrack{.skeleton = scene.scene.skeleton, .turns = {}, .translations = {}},
                   .keypoints = {},
-                  .notes = {name_in_file(scene, chosen)}};
+                  .notes = {name_in_file(scene, chosen, !asked.empty())}};
     for (size_t t = 0; t < motion.frames; ++t) {
         const Pose pose = pose_at(scene.scene, animation, static_cast<double>(t) / rate);
         for (const Transform& joint : pose.joints) {

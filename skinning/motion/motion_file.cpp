@@ -75,10 +75,11 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
         if (holds_smpl(arrays)) return motion_of_smpl(arrays, file.string(), hints.fps);
         return named(keypoints_of_arrays(arrays, file.string()));
     }
-    if (text.starts_with("glTF")) return read_gltf_motion(file, hints.fps);
+    if (text.starts_with("glTF")) return read_gltf_motion(file, hints.fps, hints.animation);
     if (begins_with_word(text, "{") || begins_with_word(text, "[")) {
         const Json json = is_json_lines(text) ? parse_json_lines(text, file) : read_json(file);
-        if (json.is_object() && json.contains("asset")) return read_gltf_motion(file, hints.fps);
+        if (json.is_object() && json.contains("asset"))
+            return read_gltf_motion(file, hints.fps, hints.animation);
         if (holds_mediapipe(json)) return motion_of_mediapipe(json, file.string(), hints.fps);
         if (holds_people(json)) return named(people_of_json(json, file.string()));
         if (holds_arkit(json)) return face_of_arkit_json(json, file.string(), hints.fps);
@@ -125,7 +126,23 @@ struct Recorded {
     bool is_picture_upright = true;  // by its format
 };
 
+void refuse_animation_of_others(const fs::path& file) {
+    if (!fs::is_directory(file)) {
+        const std::vector<std::byte> bytes = read_bytes(file);
+        const std::string_view text =
+            without_byte_order_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+        if (text.starts_with("glTF")) return;
+        if (begins_with_word(text, "{") && !is_json_lines(text)) {
+            const Json json = read_json(file);
+            if (json.is_object() && json.contains("asset")) return;
+        }
+    }
+    throw Error(
+        format("{}: an animation was chosen, which glTF files alone have; leave it out", file.string()));
+}
+
 Recorded read_as_recorded(const fs::path& file, const MotionHints& hints) {
+    if (!hints.animation.empty()) refuse_animation_of_others(file);
     if (is_openpose_folder(file)) return {read_openpose(file, hints.fps)};
     if (is_panoptic_folder(file)) {
         Motion motion = name_keypoints(read_panoptic(file), hints.fps, hints.name_map);

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "core/body/motion.h"
@@ -28,8 +29,9 @@ struct MotionHints {
     std::optional<double> lift_cutoff{};  // of the filter of points that are lifted out of a picture [Hz]; 0:
                                           // none, not set: what their noise asks for (skinning/lift/lift.h)
     PictureHints picture{};               // of the points of a picture
-    std::optional<double> smoothing{};    // cutoff of the low-pass of a motion that comes in as 3D [Hz]; not
-                                          // set: nothing smooths it (skinning/signal/smooth.h)
+    std::string animation{};  // of a glTF file, by name or by number from 0; empty: the first that moves
+    std::optional<double> smoothing{};  // cutoff of the low-pass of a motion that comes in as 3D [Hz]; not
+                                        // set: nothing smooths it (skinning/signal/smooth.h)
 };
 
 // "auto", "x", "y", "z", "-x", "-y", "-z". Throws Error for anything else.
@@ -44,8 +46,8 @@ double turn_named(std::string_view name);
 // above the hips, the left side is left, and a grown-up is 1.3 to 2.1 m tall; `notes` of the result say what
 // was found. The rest pose and the beginning of the motion (1 s) are each turned to face +z; joints below the
 // root keep their turns. The table of a face gives a motion with a face alone, for which only the rate can be
-// set by hand. Throws Error if the file is missing, broken, ambiguous or no motion, or if its rate, or the
-// one that was set, is none of a motion (skinning/signal/frame_rate.h).
+// set by hand. Throws Error if the file is missing, broken, ambiguous or no motion, if its rate, or the
+// one that was set, is none of a motion (skinning/signal/frame_rate.h), or if an animation is chosen of what is no glTF.
 Motion read_motion(const std::filesystem::path& file, const MotionHints& hints = {});
 
 // The endings of files that are taken for motions in folders; animated glTF, which may be avatars as well, is named one

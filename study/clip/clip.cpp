@@ -48,6 +48,7 @@ Json hints_of(const MotionHints& hints, RecipeMemory& memory) {
     json["field_of_view"] = or_null(picture.field_of_view);
     json["lift_cutoff"] = or_null(hints.lift_cutoff);
     json["smoothing"] = or_null(hints.smoothing);
+    if (!hints.animation.empty()) json["animation"] = hints.animation;
     json["names"] = hints.name_map.empty() ? Json() : Json(memory.hash(hints.name_map));
     return json;
 }
@@ -62,7 +63,7 @@ Json face_options_of(const FaceOptions& options) {
 Json recipe_of(const Performer& performer, const CompanionFiles& companions, RecipeMemory& memory) {
     if (!performer.film.empty()) return {{"film", memory.hash(performer.film)}};
     if (plays_own_animation(performer)) {
-        return {{"animation", performer.animation}, {"avatar", memory.avatar(performer.avatar)}};
+        return {{"animation", performer.hints.animation}, {"avatar", memory.avatar(performer.avatar)}};
     }
     const fs::path& motion = performer.motion;
     return {{"motion", motion.empty() ? Json() : memory.hashes(motion, companions.of_motion)},

@@ -41,7 +41,6 @@ struct Performer {
     std::optional<std::filesystem::path> face{};  // otherwise the face of the motion, if it has one
     FaceOptions face_options{};
     std::filesystem::path avatar = kDefaultAvatar;  // a file, the name of a bundled avatar, or "stick"
-    std::string animation{};  // that its file plays without motion and face, name or number; empty: first
     Modes modes{};
     std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
     std::optional<Cut> voice_cut{};                // as ClipJob::sound_cut

@@ -16,24 +16,10 @@ constexpr double kMostTransforms = 2e7;  // of all nodes and frames: less than 1
 constexpr float kFarthest = 1e9f;        // from the origin [m]
 constexpr float kSmallest = 1e-12f;      // from end to end [m]
 
-std::string shown(const Animation& animation) {
-    return animation.name.empty() ? "without a name" : format("\"{}\"", animation.name);
-}
-
-// By name, else counted from 0; nothing if the file has none and none was asked for.
+// Nothing if the file has none and none was asked for.
 const Animation* find_animation(const AnimatedScene& file, const std::string& asked) {
-    if (asked.empty()) return file.animations.empty() ? nullptr : &file.animations.front();
-    std::vector<std::string> known;
-    for (const Animation& animation : file.animations) {
-        if (animation.name == asked) return &animation;
-        known.push_back(format("{} {}", known.size(), shown(animation)));
-    }
-    const auto number = parse_integer(asked);
-    if (number && *number >= 0 && *number < static_cast<long long>(file.animations.size()))
-        return &file.animations[static_cast<std::size_t>(*number)];
-    throw Error(
-        format("{}: has no animation \"{}\"; {}", file.scene.source, asked,
-               known.empty() ? "it has none at all, leave --animation out" : "choose one of " + join(known)));
+    if (!asked.empty()) return &file.animations[animation_named(file, asked)];
+    return file.animations.empty() ? nullptr : &file.animations.front();
 }
 
 std::size_t count_frames(const AnimatedScene& file, const Animation& animation, double fps) {
@@ -116,7 +102,7 @@ void require_size(const Performance& performance) {
 
 Performance play_own_animation(const Performer& performer, const ClipJob& job) {
     AnimatedScene file = read_animated_scene(find_avatar(performer.avatar));
-    const Animation* animation = find_animation(file, performer.animation);
+    const Animation* animation = find_animation(file, performer.hints.animation);
     Performance performance;
     performance.fit.fps = job.fps.per_second();
     performance.fit.poses =

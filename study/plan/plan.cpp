@@ -148,7 +148,7 @@ const std::vector<PlanKeys>& plan_keys() {
          .required = {}},
         {.object = "hints.*",
          .keys = {"fps", "up", "unit", "facing", "picture_size", "field_of_view", "lift_filter", "smooth",
-                  "names"},
+                  "animation", "names"},
          .required = {}},
         {.object = "modes.*", .keys = {"face_mode", "hands"}, .required = {}},
         {.object = "clips[]",

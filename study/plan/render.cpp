@@ -165,6 +165,7 @@ MotionHints read_hints_of_condition(const JsonValue& value, const fs::path& fold
     if (const auto filter = value.find("lift_filter"))
         hints.lift_cutoff = read_word(*filter, lift_cutoff_named);
     if (const auto smooth = value.find("smooth")) hints.smoothing = read_word(*smooth, smoothing_named);
+    if (const auto animation = value.find("animation")) hints.animation = animation->text();
     if (const auto names = value.find("names")) hints.name_map = read_path(*names, folder);
     return hints;
 }

@@ -118,7 +118,7 @@ TEST(ParseCommandLine, LetsAFilePlayItsOwnAnimationInTheSceneForObjects) {
     ASSERT_TRUE(line.command) << line.text;
     const ClipJob& job = std::get<RenderCommand>(*line.command).job;
     EXPECT_TRUE(plays_own_animation(job.performers.at(0)));
-    EXPECT_EQ(job.performers[0].animation, "Walk");
+    EXPECT_EQ(job.performers[0].hints.animation, "Walk");
     EXPECT_EQ(job.scene, "object");
     const CommandLine full = parse({"render", "--avatar", "a.glb", "--scene", "full", "--out", "a.mp4"});
     EXPECT_EQ(std::get<RenderCommand>(*full.command).job.scene, "full");
@@ -190,12 +190,9 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
          "\"rendr\" is no verb (did you mean render?); the verbs are demo, synth, corpus, render, convert,"},
         {{"render", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
         {{"render", "--animation", "1", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
-        {{"render", "--motion", "a.bvh", "--animation", "1", "--out", "a.mp4"},
-         "--animation: is of the avatar's own file, but --motion or --face is given too; leave one of them "
-         "out"},
         {{"render", "--face", "a.csv", "--animation", "1", "--out", "a.mp4"},
-         "--animation: is of the avatar's own file, but --motion or --face is given too; leave one of them "
-         "out"},
+         "--animation: is of --motion or of the avatar's own file, but --face moves the avatar; leave one of "
+         "them out"},
         {{"render", "--avatar", "a.glb", "--hands", "hidden", "--out", "a.mp4"},
          "--hands: needs --motion or --face"},
         {{"render", "--avatar", "a.glb", "--up", "z", "--out", "a.mp4"}, "--up: needs --motion or --face"},

@@ -33,7 +33,7 @@ constexpr const char* kSharedBlocksReference =
 ClipJob job_of(const std::string& model, const std::string& animation = "") {
     ClipJob job;
     job.performers[0].avatar = test_file(model);
-    job.performers[0].animation = animation;
+    job.performers[0].hints.animation = animation;
     job.scene = "object";
     job.size = {480, 360};
     job.fps = {10, 1};

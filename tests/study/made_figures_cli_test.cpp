@@ -205,6 +205,34 @@ TEST_F(MadeFiguresCli, MoveByTheFirstAnimationThatIsNotStill) {
     EXPECT_THAT(info.out, HasSubstr("animation \"Talk\", number 2 of 2: those before it are still"));
 }
 
+TEST_F(MadeFiguresCli, MoveByTheAnimationThatIsChosen) {
+    testing::GltfBuilder file = testing::made_figure({});
+    add_animation(file, {.times = {0, 0.5f, 1}, .values = {0, 1, 0, 0, 1.1f, 0, 0, 1, 0}}, "Talk");
+    add_animation(file, {.times = {0, 0.5f}, .values = {0, 1, 0, 0, 1.2f, 0}}, "Nod");
+    file.write_glb(folder_ / "x.glb");
+    const fs::path out = folder_ / "x.h5";
+    const auto convert = [&](const fs::path& motion, const std::string& animation) {
+        fs::remove(out);
+        return run_chironomia(
+            {"convert", "--motion", motion.string(), "--animation", animation, "--out", out.string()});
+    };
+    for (const char* asked : {"Nod", "1"}) {
+        const Outcome made = convert(folder_ / "x.glb", asked);
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        const Outcome info = run_chironomia({"info", out.string()});
+        EXPECT_THAT(info.out, HasSubstr("2 frames at 2 frames/s"));
+        EXPECT_THAT(info.out, HasSubstr("animation \"Nod\", number 2 of 2"));
+    }
+    const Outcome none = convert(folder_ / "x.glb", "Wave");
+    EXPECT_EQ(none.exit_code, 3);
+    EXPECT_THAT(none.err, HasSubstr("x.glb: has no animation \"Wave\"; choose one of 0 \"Talk\", 1 \"Nod\""));
+    const Outcome bvh = convert(testing::source_dir() / "assets/samples/expressive/simple-idea.bvh", "Nod");
+    EXPECT_EQ(bvh.exit_code, 3);
+    EXPECT_THAT(
+        bvh.err,
+        HasSubstr("simple-idea.bvh: an animation was chosen, which glTF files alone have; leave it out"));
+}
+
 TEST_F(MadeFiguresCli, AreRefusedWhenTheyAreDamaged) {
     std::set<std::string> seen;
     for (const DamagedFigure& figure : testing::damaged_figures(200, 24)) {

@@ -43,6 +43,10 @@ const HintOption kHintOptions[] = {
     {"--smooth", "HZ",
      "Smooth a motion that comes in as 3D by a zero-phase low-pass at this cutoff [nothing]",
      [](MotionHints& hints, const std::string& text) { hints.smoothing = smoothing_named(text); }},
+    {"--animation", "NAME|N",
+     "Which animation of a glTF file, as a motion or the avatar's own, by name or by number from 0 as info lists "
+     "them [of a motion the first that moves, of an avatar the first]",
+     [](MotionHints& hints, const std::string& text) { hints.animation = text; }},
 };
 
 const std::map<std::string, HeadTurn> kHeadTurns = {

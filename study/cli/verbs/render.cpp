@@ -21,14 +21,16 @@ constexpr auto kOfMotions = "Motions and faces";  // group of options
 // the other way round.
 void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people, const ClipJob& job) {
     if (!plays_own_animation(job.performers.front())) {
-        if (!people.has("--animation")) return;
-        throw CLI::ValidationError("--animation",
-                                   "is of the avatar's own file, but --motion or --face is given too; leave "
-                                   "one of them out");
+        if (people.has("--animation") && job.performers.front().motion.empty())
+            throw CLI::ValidationError("--animation",
+                                       "is of --motion or of the avatar's own file, but --face "
+                                       "moves the avatar; leave one of them out");
+        return;
     }
     if (!people.has("--avatar")) throw CLI::RequiredError("--motion, --face or --avatar");
     for (const std::string& name : options_in(verb, kOfMotions)) {
-        if (verb.count(name) > 0) throw CLI::ValidationError(name, "needs --motion or --face");
+        if (name != "--animation" && verb.count(name) > 0)
+            throw CLI::ValidationError(name, "needs --motion or --face");
     }
 }
 
@@ -149,7 +151,8 @@ void add_people(CLI::App& verb, RenderOptions& options) {
          .help =
              "BVH, SMPL-X, glTF, keypoints in space or a picture, OpenPose, PATS, our .h5. Given twice, it shows two people, "
              "left and right. Each has options of reading it, --face, --audio and --avatar of their own [with --face "
-             "the body stands still; without, the file of --avatar, which may be any glTF, plays its own animation]",
+             "the body stands still; without, the file of --avatar, which may be any glTF, plays its own animation, or is shown still "
+             "for 1 s, in one picture of a stack]",
          .read = [](Performer& person, const std::string& text) { person.motion = text; }});
     motion->allow_extra_args();
     for (const HintOption& option : hint_options()) {
@@ -177,15 +180,6 @@ void add_sounds_and_avatars(CLI::App& verb, RenderOptions& options) {
                .type = "A",
                .help = "glTF, GLB or VRM file, a bundled name, or stick for a figure of lines [neutral]",
                .read = [](Performer& person, const std::string& text) { person.avatar = text; }});
-    options.people.add(
-        verb,
-        {.names = "--animation",
-         .type = "NAME|N",
-         .help =
-             "Without --motion and --face: which of its animations the avatar's file plays, by name or by "
-             "number from 0 as info lists them [the first]; a file without any is shown still, for 1 s in "
-             "a clip, in one picture of a stack",
-         .read = [](Performer& person, const std::string& text) { person.animation = text; }});
 }
 
 void add_picture(CLI::App& verb, ClipJob& job) {

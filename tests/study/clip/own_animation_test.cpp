@@ -46,7 +46,7 @@ GltfBuilder sliding_file() {
 ClipJob job_of(const fs::path& avatar, const std::string& animation = "") {
     ClipJob job;
     job.performers[0].avatar = avatar;
-    job.performers[0].animation = animation;
+    job.performers[0].hints.animation = animation;
     job.scene = "object";
     job.size = {160, 120};
     job.out = "clip.mp4";
