@@ -17,6 +17,7 @@
 #include "synth/speakers/speakers.h"
 #include "synth/speech/accents.h"
 #include "synth/speech/align.h"
+#include "synth/speech/channels.h"
 #include "synth/speech/silent_words.h"
 #include "synth/speech/speak.h"
 #include "synth/speech/timed_words.h"
@@ -32,15 +33,6 @@ constexpr int kSilenceRate = 22050;  // [Hz]
 Audio silence(double seconds, int rate) {
     return {
         .rate = rate, .channels = 1, .samples = std::vector<float>(static_cast<std::size_t>(seconds * rate))};
-}
-
-Audio mono(const Audio& sound) {
-    if (sound.channels == 1) return sound;
-    Audio mixed{.rate = sound.rate, .channels = 1, .samples = std::vector<float>(sound.length())};
-    const auto channels = static_cast<std::size_t>(sound.channels);
-    for (std::size_t i = 0; i < sound.samples.size(); ++i)
-        mixed.samples[i / channels] += sound.samples[i] / static_cast<float>(sound.channels);
-    return mixed;
 }
 
 Lexicon read_lexicons(const std::vector<std::filesystem::path>& more) {
@@ -198,7 +190,10 @@ std::string language_of(const SynthesisJob& job, const TimedWords& timed, const 
 
 Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Lexicon& lexicon,
                 std::vector<std::string>& notes) {
-    Audio sound = mono(read_audio(*job.recording));
+    const Audio whole = read_audio(*job.recording);
+    if (job.channel == SpeechChannel::mean)
+        if (auto note = note_of_two_voices(whole, *job.recording)) notes.push_back(std::move(*note));
+    Audio sound = take_channel(whole, job.channel, *job.recording);
     if (!job.words) {
         if (has_script(job)) {
             throw Error(
@@ -220,7 +215,7 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Le
                    "table or a TextGrid",
                    job.words->string()));
     }
-    notes = std::move(timed.notes);
+    notes.insert(notes.end(), timed.notes.begin(), timed.notes.end());
     if (auto note = note_of_silent_words(timed.words, *job.words, sound, *job.recording))
         notes.push_back(std::move(*note));
     const std::string language = language_of(job, timed, of_speaker, notes);

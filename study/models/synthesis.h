@@ -15,6 +15,7 @@
 #include "synth/expressive.h"
 #include "synth/markup/markup.h"
 #include "synth/planner/variants.h"
+#include "synth/speech/channels.h"
 
 namespace chironomia::study {
 
@@ -24,6 +25,7 @@ struct SynthesisJob {
     std::optional<MarkupLanguage> language;          // of the script; none: it is recognised
     std::optional<MarkupSource> source;              // the script as it was read, in place of `script`
     std::optional<std::filesystem::path> recording;  // speech in place of a synthetic voice
+    SpeechChannel channel = SpeechChannel::mean;     // of the recording
     std::optional<std::filesystem::path> words;      // of the recording, in time (synth/speech/timed_words.h)
     std::string gestures;             // shown one after the other in place of speech: an id, or "all"
     std::string speaker = "neutral";  // one of the bundled, or a file

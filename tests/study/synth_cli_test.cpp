@@ -92,6 +92,7 @@ TEST_F(Synth, SpeaksAndActsInTheLanguageThatItIsGiven) {
         EXPECT_EQ(synth(more).exit_code, 0);
         return std::pair(read_json(file("s.json"))["marks"].dump(), read_bytes(file("s.wav")));
     };
+    EXPECT_THAT(synth({"--text", words}).err, HasSubstr("--text: 5 of its words are French"));
     const auto [english, english_sound] = made_by({});
     const auto [french, french_sound] = made_by({"--language", "fr"});
     EXPECT_THAT(french, HasSubstr("greet"));
@@ -221,6 +222,44 @@ TEST_F(Synth, SaysThatTheEndOfARecordingCutsAGestureOff) {
     EXPECT_EQ(cut.exit_code, 0);
     EXPECT_THAT(cut.err, AllOf(HasSubstr("gesture \""),
                                HasSubstr(" s, but the speech ends at 2.00 s and cuts it off")));
+}
+
+TEST_F(Synth, TakesTheChannelOfAPersonFromASoundOfTwo) {
+    ASSERT_EQ(synth({"--text", "Hello there! This one is really enormous.", "--speech-out", file("one.wav")})
+                  .exit_code,
+              0);
+    const Audio one = read_audio(file("one.wav"));
+    // The same words, first from the left and then from the right, or from both sides at once.
+    const auto write_stereo = [&](const char* name, bool in_turn) {
+        Audio both{.rate = one.rate, .channels = 2, .samples = std::vector<float>(4 * one.length())};
+        for (std::size_t i = 0; i < one.length(); ++i) {
+            both.samples[2 * i] = one.samples[i];
+            both.samples[2 * (in_turn ? one.length() + i : i) + 1] = one.samples[i];
+        }
+        write_wav(file(name), both);
+    };
+    write_stereo("two.wav", true);
+    write_stereo("same.wav", false);
+    const std::string two = file("two.wav");
+    EXPECT_THAT(synth({"--speech", two}).err,
+                HasSubstr("if they are two people, --speech-channel left or right takes one"));
+    EXPECT_THAT(synth({"--speech", file("same.wav")}).err, Not(HasSubstr("channel")));
+    const auto stroke_ends = [&](const std::string& side) {
+        const Outcome made =
+            synth({"--speech", two, "--speech-channel", side, "--oac", "1", "--score-out", file("s.json")});
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        EXPECT_THAT(made.err, Not(HasSubstr("channel")));
+        std::vector<double> ends;
+        for (const auto& gesture : read_json(file("s.json"))["gestures"])
+            ends.push_back(gesture["strokes"][0]["end"]);
+        return ends;
+    };
+    const double half = static_cast<double>(one.length()) / one.rate;
+    EXPECT_THAT(stroke_ends("left"), AllOf(Not(IsEmpty()), ::testing::Each(::testing::Lt(half))));
+    EXPECT_THAT(stroke_ends("right"), AllOf(Not(IsEmpty()), ::testing::Each(::testing::Gt(half))));
+    fs::remove(file("m.h5"));
+    EXPECT_THAT(refusal({"--speech", file("one.wav"), "--speech-channel", "left"}),
+                HasSubstr("one.wav: it has 1 channel, but one side of 2 was asked for"));
 }
 
 TEST_F(Synth, SaysThatTagsAreSpokenAsWords) {

@@ -70,6 +70,11 @@ void add_sources(CLI::App& verb, SynthCommand& command) {
     verb.add_option("--words", job.words, "When its words are said: TextGrid, ELAN, WebVTT, CSV or JSON")
         ->type_name("W")
         ->needs(speech);
+    add_choice<SpeechChannel>(
+        verb, "--speech-channel", job.channel,
+        {{"mean", SpeechChannel::mean}, {"left", SpeechChannel::left}, {"right", SpeechChannel::right}})
+        ->description("Which channel of it is the person's: left, right, or the mean of all [mean]")
+        ->needs(speech);
 }
 
 void add_manner(CLI::App& verb, SynthesisJob& job) {
