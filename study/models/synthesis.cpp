@@ -208,7 +208,7 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Le
                                    : "its words are not known; gestures go with what is stressed"));
         return speech;
     }
-    TimedWords timed = read_timed_words(*job.words, sound.duration());
+    TimedWords timed = read_timed_words(*job.words, sound.duration(), job.words_speaker);
     if (timed.words.empty()) {
         throw Error(
             format("{}: it holds phonemes and no words, as label files of HTK are read; give the words as a "

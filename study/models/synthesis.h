@@ -27,6 +27,7 @@ struct SynthesisJob {
     std::optional<std::filesystem::path> recording;  // speech in place of a synthetic voice
     SpeechChannel channel = SpeechChannel::mean;     // of the recording
     std::optional<std::filesystem::path> words;      // of the recording, in time (synth/speech/timed_words.h)
+    std::string words_speaker;                       // whose words count of a file that names several people
     std::string gestures;             // shown one after the other in place of speech: an id, or "all"
     std::string speaker = "neutral";  // one of the bundled, or a file
     LocalManner manner;               // in place of the speaker's

@@ -132,7 +132,10 @@ std::vector<TimedLabel> labels_of(const Cue& cue) {
     for (const Part& part : parts_of(join(cue.lines, " "))) {
         if (part.start) {
             labels.back().end = *part.start;
-            labels.push_back({.where = cue.timing.where, .start = *part.start, .end = cue.timing.end});
+            labels.push_back({.where = cue.timing.where,
+                              .start = *part.start,
+                              .end = cue.timing.end,
+                              .speaker = cue.timing.speaker});
         }
         labels.back().text += part.text;
     }
@@ -248,6 +251,18 @@ bool is_end_of_cue(std::span<const std::string_view> lines, std::size_t i) {
     return lines[i].empty() || is_timing(i) || is_number;
 }
 
+// "Ann" of "<v Ann>" and "<v.loud Ann>", as WebVTT names who says a cue; "" if it does not.
+std::string voice_in(std::string_view text) {
+    for (const std::string_view tag : {"<v ", "<v."}) {
+        const std::size_t at = text.find(tag), end = text.find('>', at);
+        if (at == std::string_view::npos || end == std::string_view::npos) continue;
+        const std::size_t space = text.substr(at, end - at).find(' ');
+        if (space != std::string_view::npos)
+            return std::string(trim(text.substr(at + space, end - at - space)));
+    }
+    return "";
+}
+
 // Also counts the sounds in brackets that were left out.
 struct Cues {
     std::vector<Cue> cues;
@@ -265,6 +280,7 @@ Cues read_cues(std::string_view text, const std::string& file) {
         Cue cue{.timing = read_timing(lines[i], i + 1, file)};
         std::string shown;
         while (i + 1 < lines.size() && !is_end_of_cue(lines, i + 1)) shown.append(lines[++i]) += '\n';
+        cue.timing.speaker = voice_in(shown);
         read.sounds += strip_effects(shown);
         for (const std::string_view line : split(shown, '\n')) cue.lines.emplace_back(line);
         read.cues.push_back(std::move(cue));

@@ -23,13 +23,13 @@ class ElanReader {
   public:
     explicit ElanReader(const XmlSource& source) : source_(source), root_(parse_xml(source)) {}
 
-    TimedLabels read() {
+    TimedLabels read(std::string_view speaker) {
         for (const XmlNode& node : root_.children)
             if (node.name == "TIME_ORDER") read_times(node);
         std::vector<LabelTier> tiers;
         for (const XmlNode& node : root_.children)
             if (node.name == "TIER") tiers.push_back(read_tier(node));
-        return labels_of_tiers(tiers, std::string(source_.name));
+        return labels_of_tiers(tiers, std::string(source_.name), speaker);
     }
 
   private:
@@ -106,8 +106,8 @@ bool is_elan(std::string_view text) {
     return root_name(text) == "ANNOTATION_DOCUMENT";
 }
 
-TimedLabels read_elan(std::string_view text, const std::string& file) {
-    return ElanReader({text, file}).read();
+TimedLabels read_elan(std::string_view text, const std::string& file, std::string_view speaker) {
+    return ElanReader({text, file}).read(speaker);
 }
 
 }  // namespace chironomia

@@ -15,6 +15,6 @@ bool is_elan(std::string_view text);
 // slots without a value, as between the parts of a subdivided annotation, share what their neighbours leave. See "EAF
 // annotation format" of The Language Archive. `file` is named in messages. Throws Error with line and column if the XML
 // is broken, a time slot is missing or no number, or as label_tiers.h says.
-TimedLabels read_elan(std::string_view text, const std::string& file);
+TimedLabels read_elan(std::string_view text, const std::string& file, std::string_view speaker = {});
 
 }  // namespace chironomia

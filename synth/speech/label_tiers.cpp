@@ -32,10 +32,26 @@ const LabelTier* find_tier(const std::vector<LabelTier>& tiers, std::initializer
     for (const LabelTier& tier : tiers)
         if (is_named(tier, names)) found.push_back(&tier);
     if (found.size() > 1) {
-        throw Error(format("{}: the tiers \"{}\" and \"{}\" are both named as {}; keep those of one speaker",
-                           file, found[0]->name, found[1]->name, *names.begin()));
+        throw Error(format(
+            "{}: the tiers \"{}\" and \"{}\" are both named as {}; keep those of one speaker, or choose one by --words-speaker",
+            file, found[0]->name, found[1]->name, *names.begin()));
     }
     return found.empty() ? nullptr : found[0];
+}
+
+std::vector<LabelTier> tiers_of(const std::vector<LabelTier>& tiers, std::string_view speaker,
+                                const std::string& file) {
+    const std::string name(speaker);
+    std::vector<LabelTier> kept;
+    for (const LabelTier& tier : tiers) {
+        const std::string_view whole = trim(tier.name);
+        if (whole == name || whole.starts_with(name + " - ") || whole.ends_with("@" + name))
+            kept.push_back(tier);
+    }
+    if (kept.empty())
+        throw Error(
+            format("{}: none of its tiers is of \"{}\"; they are {}", file, speaker, names_of(tiers)));
+    return kept;
 }
 
 bool is_silence(const TimedLabel& label) {
@@ -47,7 +63,9 @@ bool is_silence(const TimedLabel& label) {
 
 }  // namespace
 
-TimedLabels labels_of_tiers(const std::vector<LabelTier>& tiers, const std::string& file) {
+TimedLabels labels_of_tiers(const std::vector<LabelTier>& all, const std::string& file,
+                            std::string_view speaker) {
+    const std::vector<LabelTier> tiers = speaker.empty() ? all : tiers_of(all, speaker, file);
     const LabelTier* words = find_tier(tiers, {"words", "word", "ort-mau"}, file);
     const LabelTier* phones =
         find_tier(tiers, {"phones", "phone", "phonemes", "phoneme", "segments", "mau"}, file);

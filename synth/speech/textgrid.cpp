@@ -128,7 +128,7 @@ bool is_textgrid(std::string_view text) {
            head.find("TextGrid") != std::string_view::npos;
 }
 
-TimedLabels read_textgrid(std::string_view text, const std::string& file) {
+TimedLabels read_textgrid(std::string_view text, const std::string& file, std::string_view speaker) {
     Tokens tokens(text, file);
     tokens.text("kind of file");
     tokens.text("kind of object");
@@ -137,7 +137,7 @@ TimedLabels read_textgrid(std::string_view text, const std::string& file) {
     tokens.flag("mark that tiers exist");
     std::vector<LabelTier> tiers(tokens.count("number of tiers"));
     for (LabelTier& tier : tiers) tier = read_tier(tokens);
-    return labels_of_tiers(tiers, file);
+    return labels_of_tiers(tiers, file, speaker);
 }
 
 }  // namespace chironomia

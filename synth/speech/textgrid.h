@@ -15,6 +15,6 @@ bool is_textgrid(std::string_view text);
 // is there for the reader's eyes. See "TextGrid file formats" in Praat's manual. Which tiers hold words and phonemes is
 // said in label_tiers.h. `file` is named in messages. Throws Error with the line if something is missing or no number,
 // or as label_tiers.h says.
-TimedLabels read_textgrid(std::string_view text, const std::string& file);
+TimedLabels read_textgrid(std::string_view text, const std::string& file, std::string_view speaker = {});
 
 }  // namespace chironomia

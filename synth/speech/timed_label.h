@@ -7,10 +7,11 @@
 namespace chironomia {
 
 struct TimedLabel {
-    std::string where;  // in the file: "line 3"
-    std::string text;   // as it stands there; may hold several words
-    double start = 0;   // [s]
-    double end = 0;     // [s]
+    std::string where;      // in the file: "line 3"
+    std::string text;       // as it stands there; may hold several words
+    double start = 0;       // [s]
+    double end = 0;         // [s]
+    std::string speaker{};  // who says it, as the file names them; "" if it does not
 };
 
 struct TimedLabels {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "core/error.h"
@@ -42,17 +43,49 @@ std::string read_any_utf(const fs::path& file) {
     return bytes;
 }
 
-TimedLabels read_labels(const fs::path& file, double duration) {
-    const std::string text = read_any_utf(file);
+// Keeps the words of one speaker, or refuses those of a second one.
+void keep_speaker(std::vector<TimedLabel>& words, std::string_view speaker, const std::string& file) {
+    if (!speaker.empty()) {
+        std::set<std::string> names;
+        for (const TimedLabel& word : words)
+            if (!word.speaker.empty()) names.insert(word.speaker);
+        std::erase_if(words, [&](const TimedLabel& word) { return word.speaker != speaker; });
+        if (!words.empty()) return;
+        throw Error(format("{}: nothing in it is said by \"{}\"; {}", file, speaker,
+                           names.empty() ? "it names no speakers, leave --words-speaker out"
+                                         : "it names " + join({names.begin(), names.end()})));
+    }
+    std::string before;
+    for (const TimedLabel& word : words) {
+        if (word.speaker.empty()) continue;
+        if (!before.empty() && word.speaker != before) {
+            throw Error(format(
+                "{}: {} is said by \"{}\", what is before it by \"{}\"; keep the words of one speaker, or "
+                "choose one by --words-speaker",
+                file, word.where, word.speaker, before));
+        }
+        before = word.speaker;
+    }
+}
+
+TimedLabels read_labels(const fs::path& file, std::string_view text, double duration) {
     const std::string name = file.string();
     const std::string_view content = trim(text);
-    if (is_textgrid(content)) return read_textgrid(text, name);
-    if (is_elan(content)) return read_elan(text, name);
     if (content.starts_with('[') || content.starts_with('{')) return read_word_json(file, duration);
     if (are_captions(content)) return read_captions(text, name);
     if (is_label_file(content)) return read_label_file(text);
     if (is_ctm(content)) return read_ctm(text, name);
     return read_word_table(text, name);
+}
+
+TimedLabels read_labels(const fs::path& file, double duration, std::string_view speaker) {
+    const std::string text = read_any_utf(file);
+    const std::string name = file.string();
+    if (is_textgrid(trim(text))) return read_textgrid(text, name, speaker);
+    if (is_elan(trim(text))) return read_elan(text, name, speaker);
+    TimedLabels labels = read_labels(file, text, duration);
+    keep_speaker(labels.words, speaker, name);
+    return labels;
 }
 
 struct WordFile {
@@ -220,8 +253,8 @@ std::vector<SpokenWord> with_phonemes(std::vector<SpokenWord> words,
     return words;
 }
 
-TimedWords read_timed_words(const fs::path& file, double duration) {
-    const TimedLabels labels = read_labels(file, duration);
+TimedWords read_timed_words(const fs::path& file, double duration, std::string_view speaker) {
+    const TimedLabels labels = read_labels(file, duration, speaker);
     const WordFile place{.file = file.string(), .duration = duration};
     Times word_times(place, "words"), phone_times(place, "phonemes");
     TimedWords timed;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/speech.h"
@@ -25,8 +26,11 @@ struct TimedWords {
 //   no length last to the next one, at most 50 ms; all of it is noted.
 // - Phonemes in ARPAbet and X-SAMPA come out in IPA; a phoneme belongs to the word in which its middle lies.
 // Throws Error with the place in the file if it cannot be read, if it has two speakers, if a word ends before it
-// starts, overlaps its neighbour or lies outside the sound, or if there is no word and no phoneme.
-TimedWords read_timed_words(const std::filesystem::path& file, double duration);
+// starts, overlaps its neighbour or lies outside the sound, or if there is no word and no phoneme. `speaker` keeps what
+// that person says, by tiers (label_tiers.h), "speaker" of JSON, a column of that name, or <v Name> of WebVTT; "" keeps
+// all; Error if the file names no such person.
+TimedWords read_timed_words(const std::filesystem::path& file, double duration,
+                            std::string_view speaker = {});
 
 // The words, each with the phonemes whose middles lie in it. Both ascend in time.
 std::vector<SpokenWord> with_phonemes(std::vector<SpokenWord> words,

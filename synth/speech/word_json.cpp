@@ -109,12 +109,13 @@ class Reader {
         for (std::size_t i = 0; i < segments.size(); ++i) {
             const std::string place = format("{}[{}]", list, i);
             if (has_list(segments[i], "words")) {
-                refuse_another_speaker(segments[i], place);
+                speaker_ = speaker_in(segments[i], "");
                 const Json& words = segments[i]["words"];
                 const bool has_ends = has_number(segments[i], "start") && has_number(segments[i], "end");
                 read_words(has_ends ? with_times(words, segments[i]["start"], segments[i]["end"])
                                     : with_times_between(words),
                            place + ".words");
+                speaker_.clear();
             } else {
                 read_word(segments[i], place);
             }
@@ -202,22 +203,19 @@ class Reader {
     }
 
     // WhisperX names speakers if it was asked to.
-    void refuse_another_speaker(const Json& object, const std::string& place) {
-        if (!object.is_object() || !object.contains("speaker") || object["speaker"].is_null()) return;
-        const std::string speaker = object["speaker"].dump();
-        if (speaker_.empty()) speaker_ = speaker;
-        if (speaker != speaker_) {
-            throw Error(format("{}: {} is said by {}, what is before it by {}; keep the words of one speaker",
-                               file_, place, speaker, speaker_));
-        }
+    static std::string speaker_in(const Json& object, const std::string& otherwise) {
+        if (!object.is_object() || !object.contains("speaker") || object["speaker"].is_null())
+            return otherwise;
+        const Json& speaker = object["speaker"];
+        return speaker.is_string() ? speaker.get<std::string>() : speaker.dump();
     }
 
     void read_word(const Json& word, const std::string& place) {
-        refuse_another_speaker(word, place);
         labels_.words.push_back({.where = place,
                                  .text = text_in(word, place),
                                  .start = time_in(word, {"start", "start_time", "startTime"}, place),
-                                 .end = time_in(word, {"end", "end_time", "endTime"}, place)});
+                                 .end = time_in(word, {"end", "end_time", "endTime"}, place),
+                                 .speaker = speaker_in(word, speaker_)});
     }
 
     // Under the first name that is there. Google writes "1.300s".
@@ -252,8 +250,8 @@ class Reader {
 
     std::string file_;
     Json json_;
-    double duration_;  // of the sound [s]
-    std::string speaker_;
+    double duration_;      // of the sound [s]
+    std::string speaker_;  // of the segment that is being read
     std::size_t untimed_ = 0;
     TimedLabels labels_;
 };

@@ -14,7 +14,7 @@ namespace chironomia {
 // list of them, with times like "1.300s". Words without any time, as WhisperX and Gentle leave them, share what their
 // neighbours leave, which is noted; before the first and behind the last word that has times, up to 0.3 s each within
 // `duration`, that of the sound [s]. Throws Error with the place ("segments[0].words[2]") if something is missing or of
-// another kind, or if another "speaker" begins.
+// another kind.
 TimedLabels read_word_json(const std::filesystem::path& file, double duration);
 
 }  // namespace chironomia

@@ -16,7 +16,7 @@ namespace {
 
 struct Columns {
     std::size_t word = 0, start = 0, end = 0;
-    std::optional<std::size_t> type = {};
+    std::optional<std::size_t> type = {}, speaker = {};
 };
 
 using Names = std::array<std::string_view, 5>;
@@ -42,7 +42,7 @@ std::optional<Columns> columns_named(const CsvRow& row) {
     // ELAN heads the last column by the name of the tier.
     if (!word && start && row.cells[*start] == "Begin Time - ss.msec") word = row.cells.size() - 1;
     if (!word || !start || !end) return std::nullopt;
-    return Columns{*word, *start, *end, column_named(row, {"type"})};
+    return Columns{*word, *start, *end, column_named(row, {"type"}), column_named(row, {"speaker"})};
 }
 
 std::vector<std::size_t> number_columns(const CsvRow& row, bool numbers = true) {
@@ -193,8 +193,8 @@ TimedLabels read_word_table(std::string_view text, const std::string& file) {
     if (is_in_milliseconds)
         labels.notes.push_back(format("{}: its times are milliseconds, as Whisper writes them", file));
     const double unit = is_in_milliseconds ? 1e-3 : 1;  // [s]
-    const std::size_t last =
-        std::max({columns->word, columns->start, columns->end, columns->type.value_or(0)});
+    const std::size_t last = std::max({columns->word, columns->start, columns->end, columns->type.value_or(0),
+                                       columns->speaker.value_or(0)});
     for (const CsvRow& row : std::span(table.rows).subspan(named ? 1 : 0)) {
         if (row.values <= last) {
             throw Error(format("{}: line {}: it has {} cells, and {} are needed; write word,start,end", file,
@@ -206,10 +206,12 @@ TimedLabels read_word_table(std::string_view text, const std::string& file) {
             throw Error(format("{}: line {}: a word has several lines; double each quote within a cell", file,
                                row.line));
         }
-        labels.words.push_back({.where = format("line {}", row.line),
-                                .text = std::string(word),
-                                .start = unit * time_in(row, columns->start, "start", file),
-                                .end = unit * time_in(row, columns->end, "end", file)});
+        labels.words.push_back(
+            {.where = format("line {}", row.line),
+             .text = std::string(word),
+             .start = unit * time_in(row, columns->start, "start", file),
+             .end = unit * time_in(row, columns->end, "end", file),
+             .speaker = columns->speaker ? std::string(trim(row.cells[*columns->speaker])) : ""});
     }
     return labels;
 }

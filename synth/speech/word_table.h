@@ -26,7 +26,7 @@ TimedLabels read_ctm(std::string_view text, const std::string& file);
 // columns: word, text, token or label; start, begin, onset, tmin or xmin; end, stop, offset, tmax or xmax. Under
 // "start", "end" and "text", as Whisper names them, whole numbers are milliseconds if a stretch would last over a
 // minute otherwise, which is noted. Under "type" rows of other things than words are left out, as the Montreal Forced
-// Aligner names phones. Without names, the column that is no number is the word, and the numbers are its start and its
+// Aligner names phones; "speaker" names who says it. Without names, the column that is no number is the word, and the numbers are its start and its
 // end. ELAN's export, with or without names, is read by its seconds. `file` is named in messages. Throws Error with the
 // line if a column is missing, a row is too long, a time is no number, or quotes do not match.
 TimedLabels read_word_table(std::string_view text, const std::string& file);

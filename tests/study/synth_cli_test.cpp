@@ -224,6 +224,19 @@ TEST_F(Synth, SaysThatTheEndOfARecordingCutsAGestureOff) {
                                HasSubstr(" s, but the speech ends at 2.00 s and cuts it off")));
 }
 
+TEST_F(Synth, GesturesWithTheWordsOfTheSpeakerWhoIsChosen) {
+    const std::string wav = (source_dir() / "assets/samples/speech/two-ways.wav").string();
+    write_text(file("w.csv"), "word,start,end,speaker\nhello,1,1.4,Ann\ngoodbye,2,2.6,Ben\n");
+    EXPECT_THAT(refusal({"--speech", wav, "--words", file("w.csv")}),
+                HasSubstr("w.csv: line 3 is said by \"Ben\", what is before it by \"Ann\""));
+    const Outcome made = synth(
+        {"--speech", wav, "--words", file("w.csv"), "--words-speaker", "Ben", "--score-out", file("s.json")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Json words = read_json(file("s.json"))["words"];
+    ASSERT_EQ(words.size(), 1u);
+    EXPECT_EQ(words[0]["text"], "goodbye");
+}
+
 TEST_F(Synth, TakesTheChannelOfAPersonFromASoundOfTwo) {
     ASSERT_EQ(synth({"--text", "Hello there! This one is really enormous.", "--speech-out", file("one.wav")})
                   .exit_code,

@@ -70,6 +70,10 @@ void add_sources(CLI::App& verb, SynthCommand& command) {
     verb.add_option("--words", job.words, "When its words are said: TextGrid, ELAN, WebVTT, CSV or JSON")
         ->type_name("W")
         ->needs(speech);
+    verb.add_option("--words-speaker", job.words_speaker,
+                    "Whose words those are, in a file of several people, as it names them")
+        ->type_name("NAME")
+        ->needs("--words");
     add_choice<SpeechChannel>(
         verb, "--speech-channel", job.channel,
         {{"mean", SpeechChannel::mean}, {"left", SpeechChannel::left}, {"right", SpeechChannel::right}})

@@ -25,12 +25,12 @@ constexpr double kDuration = 10;  // [s] of the sound
 
 class TimedWordsOf : public ::testing::Test {
   protected:
-    TimedWords read(const std::string& content) const {
+    TimedWords read(const std::string& content, const std::string& speaker = "") const {
         write_text(file(), content);
-        return read_timed_words(file(), kDuration);
+        return read_timed_words(file(), kDuration, speaker);
     }
-    std::string refusal(const std::string& content) const {
-        std::string message = refusal_of([&] { read(content); });
+    std::string refusal(const std::string& content, const std::string& speaker = "") const {
+        std::string message = refusal_of([&] { read(content, speaker); });
         const std::string name = file().string() + ": ";
         return message.starts_with(name) ? message.substr(name.size()) : message;
     }
@@ -202,8 +202,10 @@ TEST_F(TimedWordsOf, AreRefusedIfATextGridIsBroken) {
               "none of its tiers (\"A\", \"B\") is named \"words\"; name the tier of words so");
     EXPECT_EQ(refusal(short_textgrid("0\n")),
               "none of its tiers (none) is named \"words\"; name the tier of words so");
-    EXPECT_EQ(refusal(short_textgrid("2\n" + short_tier("A - words", {}) + short_tier("B - words", {}))),
-              "the tiers \"A - words\" and \"B - words\" are both named as words; keep those of one speaker");
+    EXPECT_EQ(
+        refusal(short_textgrid("2\n" + short_tier("A - words", {}) + short_tier("B - words", {}))),
+        "the tiers \"A - words\" and \"B - words\" are both named as words; keep those of one speaker, or choose "
+        "one by --words-speaker");
 }
 
 // An utterance whose words have times, of which the one in the middle is left to ELAN; and a gesture.
@@ -478,11 +480,44 @@ TEST_F(TimedWordsOf, AreRefusedIfTwoSpeakersSayThem) {
         refusal(
             R"({"segments": [{"speaker": "A", "words": [{"word": "a", "start": 0, "end": 1, "speaker": "A"},
         {"word": "b", "start": 1, "end": 2, "speaker": "B"}]}]})"),
-        "segments[0].words[1] is said by \"B\", what is before it by \"A\"; keep the words of one speaker");
+        "segments[0].words[1] is said by \"B\", what is before it by \"A\"; keep the words of one speaker, or "
+        "choose one by --words-speaker");
     EXPECT_EQ(
         refusal(
             R"([{"word": "a", "start": 0, "end": 1, "speaker": 0}, {"word": "b", "start": 1, "end": 2, "speaker": 1}])"),
-        "[1] is said by 1, what is before it by 0; keep the words of one speaker");
+        "[1] is said by \"1\", what is before it by \"0\"; keep the words of one speaker, or choose one by "
+        "--words-speaker");
+    EXPECT_THAT(refusal("word,start,end,speaker\nhello,0.5,0.9,Ann\nworld,1,1.5,Ben\n"),
+                HasSubstr("line 3 is said by \"Ben\""));
+    EXPECT_THAT(refusal("WEBVTT\n\n00:00.500 --> 00:00.900\n<v Ann>hello\n\n00:01.000 --> "
+                        "00:01.500\n<v.loud Ben>world</v>\n"),
+                HasSubstr("line 6 is said by \"Ben\", what is before it by \"Ann\""));
+}
+
+TEST_F(TimedWordsOf, AreThoseOfTheSpeakerWhoIsChosen) {
+    const auto tiers = [](const std::string& ann, const std::string& ben) {
+        return short_textgrid("2\n" + short_tier(ann, {"0.5 0.9 \"hello\"", "1 1.5 \"world\""}) +
+                              short_tier(ben, {"0.6 2 \"bye\""}));
+    };
+    for (const std::string& content :
+         {tiers("Ann - words", "Ben - words"), tiers("words@Ann", "words@Ben"), tiers("Ann", "Ben"),
+          std::string(R"({"segments": [
+              {"speaker": "Ann", "words": [{"word": "hello", "start": 0.5, "end": 0.9}]},
+              {"speaker": "Ben", "words": [{"word": "bye", "start": 0.6, "end": 2}]},
+              {"speaker": "Ann", "text": "world", "start": 1, "end": 1.5}]})"),
+          std::string("Begin,End,Label,Type,Speaker\n0.5,0.9,hello,words,Ann\n1,1.5,world,words,Ann\n"
+                      "0.6,2,bye,words,Ben\n"),
+          std::string("WEBVTT\n\n00:00.500 --> 00:00.900\n<v Ann>hello\n\n00:00.600 --> 00:02.000\n<v.loud "
+                      "Ben>bye</v>\n\n00:01.000 --> 00:01.500\n<v Ann>world\n")}) {
+        EXPECT_EQ(with_times(read(content, "Ann").words), kHelloWorld) << content;
+        EXPECT_THAT(with_times(read(content, "Ben").words), ElementsAre("bye 0.6-2")) << content;
+    }
+    EXPECT_EQ(refusal(tiers("Ann - words", "Ben - words"), "Eve"),
+              "none of its tiers is of \"Eve\"; they are \"Ann - words\", \"Ben - words\"");
+    EXPECT_EQ(refusal(R"([{"word": "a", "start": 0, "end": 1, "speaker": "Ann"}])", "Eve"),
+              "nothing in it is said by \"Eve\"; it names Ann");
+    EXPECT_EQ(refusal("word,start,end\nhello,0.5,0.9\n", "Eve"),
+              "nothing in it is said by \"Eve\"; it names no speakers, leave --words-speaker out");
 }
 
 TEST_F(TimedWordsOf, ReadMillisecondsAsWhisperTabulatesThem) {
