@@ -28,6 +28,7 @@ find_package(embree CONFIG REQUIRED)  # 3.13 or 4; what differs is in raster/emb
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(ESPEAK REQUIRED IMPORTED_TARGET espeak-ng)
 find_package(pugixml CONFIG REQUIRED)
+pkg_check_modules(MD4C REQUIRED IMPORTED_TARGET md4c)
 find_package(Eigen3 3.4 CONFIG REQUIRED)  # headers alone: its Fourier transform, its decompositions of matrices
 pkg_check_modules(UTF8PROC REQUIRED IMPORTED_TARGET libutf8proc)
 pkg_check_modules(EBUR128 REQUIRED IMPORTED_TARGET libebur128)

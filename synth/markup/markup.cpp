@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <span>
 #include <system_error>
 
 #include "core/error.h"
@@ -10,10 +11,13 @@
 #include "core/text.h"
 #include "synth/markup/aplm.h"
 #include "synth/markup/bml.h"
+#include "synth/markup/functions.h"
+#include "synth/markup/markdown.h"
 #include "synth/markup/script_words.h"
 #include "synth/markup/ssml.h"
 #include "synth/markup/text_rules.h"
 #include "synth/markup/vocabulary.h"
+#include "synth/markup/word_spans.h"
 #include "synth/markup/xml.h"
 
 namespace chironomia {
@@ -22,11 +26,32 @@ namespace {
 constexpr std::size_t kMostBytes = std::size_t{1} << 20;  // of a text: some 18 hours of speech
 constexpr std::array<std::string_view, 4> kNames = {"plain", "aplm", "bml", "ssml"};
 
+std::vector<Mark> emphases_of(const SpokenMarkdown& markdown, std::span<const ScriptWord> words) {
+    std::vector<Mark> marks;
+    for (const WrittenEmphasis& written : markdown.emphases) {
+        const std::size_t first = word_at(words, written.begin), last = word_from(words, written.end);
+        const std::string value = written.is_strong ? "high" : "medium";
+        if (first < last)
+            marks.push_back({.kind = MarkKind::emphasis,
+                             .value = value,
+                             .first_word = first,
+                             .end_word = last,
+                             .weight = default_weight(MarkKind::emphasis, value)});
+    }
+    return marks;
+}
+
 MarkedText parse_plain(const MarkupSource& source) {
-    MarkedText text{.script = source.text, .words = find_words(source.text)};
+    const std::optional<SpokenMarkdown> markdown = read_markdown(source.text);
+    MarkedText text{.script = markdown ? markdown->text : source.text};
+    text.words = find_words(text.script);
     if (text.words.empty())
         throw Error(format("{}:1:1: holds no word; write what is to be said", source.name));
     text.marks = marks_by_rules(text, source.language);
+    if (markdown) {
+        set_emphases(text, emphases_of(*markdown, text.words));
+        text.notes.push_back(format("{}: its signs of Markdown are not spoken", source.name));
+    }
     return text;
 }
 

@@ -289,19 +289,6 @@ class EmphasisReader {
     std::size_t root_;
 };
 
-// Where the author emphasised, the rules do not.
-void merge_emphases(MarkedText& text, std::vector<Mark> authored) {
-    std::vector<bool> is_authored(text.words.size(), false);
-    for (const Mark& mark : authored)
-        std::fill(is_authored.begin() + static_cast<std::ptrdiff_t>(mark.first_word),
-                  is_authored.begin() + static_cast<std::ptrdiff_t>(mark.end_word), true);
-    std::erase_if(text.marks, [&](const Mark& mark) {
-        return mark.kind == MarkKind::emphasis && is_authored[mark.first_word];
-    });
-    text.marks.insert(text.marks.end(), authored.begin(), authored.end());
-    sort_marks(text.marks);
-}
-
 }  // namespace
 
 MarkedText parse_ssml(const MarkupSource& source) {
@@ -333,7 +320,7 @@ MarkedText parse_ssml(const MarkupSource& source) {
     text.marks = marks_by_rules(text, language);
     EmphasisReader emphases(text, begin);
     emphases.read(root, begin + text.script.size());
-    merge_emphases(text, std::move(emphases.marks));
+    set_emphases(text, std::move(emphases.marks));
     return text;
 }
 

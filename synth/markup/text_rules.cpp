@@ -478,4 +478,16 @@ std::vector<Mark> marks_by_rules(const MarkedText& text, std::string_view langua
     return Marker(text, language).marks();
 }
 
+void set_emphases(MarkedText& text, std::vector<Mark> authored) {
+    std::vector<bool> is_authored(text.words.size(), false);
+    for (const Mark& mark : authored)
+        std::fill(is_authored.begin() + static_cast<std::ptrdiff_t>(mark.first_word),
+                  is_authored.begin() + static_cast<std::ptrdiff_t>(mark.end_word), true);
+    std::erase_if(text.marks, [&](const Mark& mark) {
+        return mark.kind == MarkKind::emphasis && is_authored[mark.first_word];
+    });
+    text.marks.insert(text.marks.end(), authored.begin(), authored.end());
+    sort_marks(text.marks);
+}
+
 }  // namespace chironomia

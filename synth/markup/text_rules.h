@@ -18,4 +18,7 @@ namespace chironomia {
 //   alone
 std::vector<Mark> marks_by_rules(const MarkedText& text, std::string_view language);
 
+// Puts the marks of emphasis that an author wrote in place of those of the rules on the same words.
+void set_emphases(MarkedText& text, std::vector<Mark> authored);
+
 }  // namespace chironomia

@@ -139,6 +139,7 @@ const std::vector<Home> kHomes = {
     {"openssl/", "core/hash.cpp", false},
     {"torch/", "synth/learned/", true},
     {"espeak-ng/", "synth/speech/", false},
+    {"md4c.h", "synth/markup/markdown.cpp", false},
     {"pugixml.hpp", "synth/markup/xml.cpp", false},
     {"Eigen/", "study/measure/vectors/", false},
     {"unsupported/Eigen/", "synth/features/fourier.cpp", false},

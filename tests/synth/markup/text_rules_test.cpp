@@ -45,6 +45,27 @@ TEST(MarkedText, NotesWordsOfAnotherLanguage) {
     EXPECT_THAT(of_ssml("<speak xml:lang=\"fr\">"), IsEmpty());
 }
 
+TEST(Markdown, IsSpokenWithoutItsSigns) {
+    const auto script = [](const std::string& text) { return marked(text).script; };
+    EXPECT_EQ(script("It is **really** *very* big, __yes__ _indeed_."),
+              "It is really very big, yes indeed.\n");
+    EXPECT_EQ(script("# Two ways\nOne is `quick`.\n\n* First\n* Second, [slow](https://a.org/b)!\n"),
+              "Two ways.\nOne is quick.\nFirst.\nSecond, slow!\n");
+    EXPECT_EQ(script("3. *Three* of them\n4. Four of them"), "3. Three of them.\n4. Four of them.\n");
+    EXPECT_THAT(marked("*Yes*").notes, ElementsAre(HasSubstr("signs of Markdown are not spoken")));
+    for (const char* plain :
+         {"2 * 3 * 4 is 24.", "2*3*4 is 24.", "a_b_c and \"d\"", "- Hello\n- World", "1. Hello\n2. World",
+          "One\ntwo &amp; three <b>four</b>\n\n    five  ", "Wait -- what?\n---\nYes."}) {
+        EXPECT_EQ(script(plain), plain);
+        EXPECT_THAT(marked(plain).notes, IsEmpty());
+    }
+}
+
+TEST(Markdown, EmphasisesWhatItsAuthorDid) {
+    EXPECT_THAT(marks_in(marked("We *never* saw **the old wheel** there."), MarkKind::emphasis),
+                ElementsAre("emphasis=medium(never)", "emphasis=high(the old wheel)"));
+}
+
 TEST(TextRules, PartThemeAndRhemeBeforeTheVerbThatSaysSomething) {
     const MarkedText text = marked("The old machine was a present. We left.");
     EXPECT_THAT(marks_in(text, MarkKind::theme), ElementsAre("theme(The old machine)"));
