@@ -35,6 +35,8 @@ void read_opensmile_table(const FuzzInput& input) {
     parse_opensmile(input.text(), "x.csv", OpenSmileSet::speech);
 }
 
+const AddFuzzReader kPlain({"plain_text", "x.txt",
+                            [](const FuzzInput& input) { read_markup(input, MarkupLanguage::plain); }});
 const AddFuzzReader kAplm({"aplm", "x.aplm",
                            [](const FuzzInput& input) { read_markup(input, MarkupLanguage::aplm); }});
 const AddFuzzReader kBml({"bml", "x.bml",
