@@ -56,6 +56,8 @@ class NameGuess {
     }
 
     HumanoidMap find();
+    // With eyes and jaw below the head of a body that was found otherwise, where names say them.
+    HumanoidMap with_face(const HumanoidMap& body);
 
   private:
     // The joints of a role and side, nearest to the root first.
@@ -276,6 +278,14 @@ void NameGuess::find_face() {
     map_[HumanJoint::right_eye] = first_below(Role::eye, Side::right, head);
 }
 
+HumanoidMap NameGuess::with_face(const HumanoidMap& body) {
+    map_ = body;
+    find_face();
+    for (const HumanJoint part : {HumanJoint::jaw, HumanJoint::left_eye, HumanJoint::right_eye})
+        if (!map_.has(part)) map_[part] = body[part];
+    return map_;
+}
+
 HumanoidMap NameGuess::find() {
     for (const Side side : kSides) {
         find_arm(side);
@@ -454,7 +464,7 @@ HumanoidGuess find_humanoid(const Skeleton& skeleton, const std::vector<bool>& j
     if (!missing_essentials(guess.map).empty()) {
         const std::optional<HumanoidMap> shape = find_humanoid_by_shape(skeleton, joints);
         if (shape && !names_contradict(skeleton, *shape)) {
-            guess.map = *shape;
+            guess.map = NameGuess(skeleton, joints, Originals::read).with_face(*shape);
             guess.notes = {"found by the shape of its skeleton, because its names say too little"};
         }
     }

@@ -593,6 +593,26 @@ TEST(FindHumanoid, ReadsTheShapesOfOtherRigs) {
                             {H::left_toes, H::right_toes, H::jaw, H::left_eye, H::right_eye});
 }
 
+TEST(FindHumanoid, ReadsNamesOfEyesAndJawOnABodyOfNumbers) {
+    for (const std::string& file :
+         testing::present({"made/makehuman.glb", "../shared/data/avatars/tests/mh_neutral_arkit52.glb"})) {
+        Avatar avatar = read_avatar(test_file(file));
+        const std::array<HumanJoint, 3> face = {H::jaw, H::left_eye, H::right_eye};
+        const auto is_of_face = [&](size_t j) {
+            return std::ranges::any_of(
+                face, [&](HumanJoint part) { return avatar.humanoid[part] == static_cast<int>(j); });
+        };
+        for (size_t j = 0; j < avatar.skeleton.joints.size(); ++j)
+            if (!is_of_face(j)) avatar.skeleton.joints[j].name = "joint_" + std::to_string(j);
+        const HumanoidGuess guess = find_humanoid(avatar.skeleton);
+        EXPECT_THAT(guess.notes, Contains(HasSubstr("found by the shape")));
+        for (const HumanJoint part : face) {
+            EXPECT_TRUE(guess.map.has(part)) << file << ' ' << name_of(part);
+            EXPECT_EQ(guess.map[part], avatar.humanoid[part]);
+        }
+    }
+}
+
 // A figure with long hair: head and neck reach as far from the chest as an arm does.
 std::vector<Bone> with_a_long_head() {
     std::vector<Bone> bones = rig({{H::hips, "a1"},
