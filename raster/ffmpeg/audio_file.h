@@ -1,4 +1,4 @@
-// Sound from files: WAV, FLAC, OGG, MP3 and whatever else holds sound (the sound of an MP4, say).
+// Sound from files: of sound alone, such as WAV, FLAC, OGG and MP3, or of films; which kinds: demuxer.cpp.
 #pragma once
 
 #include <cstddef>

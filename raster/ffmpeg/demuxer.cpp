@@ -21,7 +21,7 @@ namespace {
 
 // Kinds of file that hold pictures and sound in themselves: a playlist could lead to any other file.
 constexpr const char* kFormats =
-    "wav,w64,aiff,flac,ogg,mp3,aac,mov,matroska,avi,mpeg,mpegts,flv,nut,ivf,yuv4mpegpipe,h264,asf,gif";
+    "wav,w64,aiff,au,caf,flac,ogg,mp3,aac,mov,matroska,avi,mpeg,mpegts,flv,nut,ivf,yuv4mpegpipe,h264,asf,gif";
 
 constexpr int kRecognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
 

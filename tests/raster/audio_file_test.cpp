@@ -72,6 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Form{"s24.wav", "-c:a pcm_s24le", 1e-6}, Form{"s32.wav", "-c:a pcm_s32le", 1e-6},
                       Form{"f64.wav", "-c:a pcm_f64le", 1e-7}, Form{"mulaw.wav", "-c:a pcm_mulaw", 0.02},
                       Form{"a.flac", "-c:a flac", 2e-5}, Form{"s16.aiff", "-c:a pcm_s16be", 2e-5},
+                      Form{"s16.au", "-c:a pcm_s16be", 2e-5}, Form{"s16.caf", "-c:a pcm_s16be", 2e-5},
                       Form{"a.ogg", "-c:a libvorbis -q:a 6", 0.01},
                       Form{"a.mp3", "-c:a libmp3lame -b:a 192k", 0.03},
                       Form{"really_a_flac.wav", "-c:a flac -f flac", 2e-5}),
