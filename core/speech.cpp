@@ -7,9 +7,10 @@ namespace chironomia {
 
 std::string_view name_of(MarkKind kind) {
     // In the order of MarkKind.
-    constexpr std::array<std::string_view, 14> kNames = {
-        "theme",           "rheme",   "emphasis", "pitch-accent", "boundary", "performative", "certainty",
-        "belief-relation", "deictic", "world",    "emotion",      "turn",     "backchannel",  "gesture"};
+    constexpr std::array<std::string_view, 15> kNames = {
+        "theme",        "rheme",     "emphasis",        "pitch-accent", "boundary",
+        "performative", "certainty", "belief-relation", "deictic",      "world",
+        "emotion",      "turn",      "backchannel",     "gesture",      "signal"};
     return kNames[static_cast<std::size_t>(kind)];
 }
 

@@ -46,6 +46,7 @@ enum class MarkKind {
     turn,             // value "take", "give", "keep"
     backchannel,      // value "agreement", "understanding", ... of a listener
     gesture,          // value: the name of a gesture of the lexicon
+    signal,  // value: of a movement of head, face or gaze, as synth/planner/behaviour.h names it: "nod"
 };
 
 // "belief-relation"

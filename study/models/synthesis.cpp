@@ -87,8 +87,9 @@ MarkedText parse_words(const TimedWords& timed, const std::filesystem::path& fil
         if (w > 0 && !has_signs) text += sign_of_pause(timed.words[w].start - timed.words[w - 1].end);
         text += (w > 0 ? " " : "") + (has_signs ? timed.written[w] : timed.words[w].text);
     }
-    return parse_marked_text({.text = std::move(text), .name = file.string(), .language = language},
-                             MarkupLanguage::plain);
+    return parse_marked_text(
+        {.text = std::move(text), .name = file.string(), .language = language, .is_heard = true},
+        MarkupLanguage::plain);
 }
 
 // What a synthetic voice says.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/error.h"
@@ -37,6 +38,35 @@ constexpr std::string_view kSpeechAttributes[] = {"id",  "start", "ready",    "s
 constexpr std::string_view kUnreadElements[] = {"constraint", "wait",        "locomotion", "emit",
                                                 "lips",       "gazeShift",   "faceFacs",   "faceShift",
                                                 "pointing",   "postureShift"};
+
+// What heads and faces are asked to do, by a part of the lexeme's name without signs: those of BML 1.0 and of GRETA
+// ("RAISE_BROWS", "faceexp=raise_eyebrows", "NOD", "head=Head_Nod"), and the emotions.
+struct Lexeme {
+    std::string_view part, signal;
+};
+constexpr Lexeme kHeadLexemes[] = {{"nod", "nod"}, {"shake", "shake"}, {"tilt", "tilt"}};
+constexpr Lexeme kFaceLexemes[] = {{"raisemouthcorner", "smile"},
+                                   {"lowermouthcorner", "sad mouth"},
+                                   {"raisebrow", "brow raise"},
+                                   {"raiseeyebrow", "brow raise"},
+                                   {"browraise", "brow raise"},
+                                   {"browsraise", "brow raise"},
+                                   {"lowerbrow", "frown"},
+                                   {"lowereyebrow", "frown"},
+                                   {"frown", "frown"},
+                                   {"smile", "smile"},
+                                   {"joy", "smile"},
+                                   {"happ", "smile"},
+                                   {"sad", "sad mouth"},
+                                   {"anger", "angry face"},
+                                   {"angry", "angry face"},
+                                   {"surpris", "surprised"},
+                                   {"fear", "afraid"},
+                                   {"afraid", "afraid"},
+                                   {"disgust", "disgusted"}};
+// Of core BML, where the lexicon has no gesture of that name.
+constexpr Lexeme kGestureLexemes[] = {
+    {"beat", "emphasis"}, {"point", "deictic"}, {"wave", "performative=greet"}};
 constexpr std::string_view kUnreadOfFunctions[] = {"ref_type", "ref_id", "prop_type", "prop_value",
                                                    "target",   "main",   "character", "duration"};
 constexpr std::string_view kRootAttributes[] = {"id", "composition", "character", "characterId", "xmlns"};
@@ -65,6 +95,21 @@ std::string text_in(const XmlNode& element) {
     std::string text;
     for (const XmlNode& child : element.children) text += child.text;
     return std::string(trim(text));
+}
+
+// "raiseeyebrows" of "Raise_EyeBrows".
+std::string letters_of(std::string_view name) {
+    std::string letters;
+    for (const char letter : to_lower(name))
+        if (letter >= 'a' && letter <= 'z') letters += letter;
+    return letters;
+}
+
+std::string_view signal_of(std::string_view name, std::span<const Lexeme> lexemes) {
+    const std::string letters = letters_of(name);
+    for (const Lexeme& lexeme : lexemes)
+        if (letters.find(lexeme.part) != std::string::npos) return lexeme.signal;
+    return "";
 }
 
 bool is_blank(const XmlNode& node) {
@@ -266,7 +311,64 @@ class BmlReader {
         }
     }
 
+    // What is asked of head, face or gaze, as the planner names it; "" if that is nothing that is shown.
+    static std::string_view signal_asked_of(const XmlNode& node) {
+        if (node.name == "gaze") {
+            const std::string direction = to_lower(attribute_or_empty(node, "offsetDirection"));
+            const bool is_aside = !direction.empty() && direction != "none";
+            return is_aside ? "look away" : attribute_or_empty(node, "target").empty() ? "" : "look at";
+        }
+        const bool is_head = node.name == "head";
+        if (!is_head && node.name != "face" && node.name != "faceLexeme") return "";
+        const std::span<const Lexeme> lexemes =
+            is_head ? std::span<const Lexeme>(kHeadLexemes) : std::span<const Lexeme>(kFaceLexemes);
+        for (const char* attribute : {"lexeme", "type"}) {
+            const std::string_view signal = signal_of(attribute_or_empty(node, attribute), lexemes);
+            if (!signal.empty()) return signal;
+        }
+        for (const XmlNode& child : node.children) {
+            if (child.name == "lexeme") return signal_of(attribute_or_empty(child, "lexeme"), lexemes);
+            for (const XmlNode& part : child.children)
+                if (part.name == "reference" && text_in(part).find(is_head ? "head" : "faceexp") == 0)
+                    return signal_of(text_in(part), lexemes);
+        }
+        return "";
+    }
+
+    // A head, a face or a gaze that is asked for itself and shows no function.
+    void read_signal(const XmlNode& node, std::string_view signal) {
+        Mark mark{.kind = MarkKind::signal, .value = std::string(signal), .weight = 1};
+        mark.times = times_of(node);
+        check_order(node, mark.times);
+        const std::string amount = attribute_or_empty(node, "amount");
+        if (!amount.empty()) {
+            // 0.5 is the usual size.
+            const double share = parse_number_in(amount, {0, 1}, {node, source_}, "amount");
+            mark.manner[Expressivity::spatial_extent] = 2 * share - 1;
+        }
+        if (node.name == "gaze" && signal == "look at")
+            note(node, format("\"{}\", at which <gaze> looks, is where the partner is",
+                              attribute_or_empty(node, "target")));
+        set_words(mark);
+        text_.marks.push_back(std::move(mark));
+    }
+
+    // Whether its description refers to a function, which says more than a lexeme.
+    static bool shows_function(const XmlNode& node) {
+        for (const XmlNode& child : node.children)
+            for (const XmlNode& part : child.children)
+                if (part.name == "reference") {
+                    const std::string text = text_in(part);
+                    if (function_of_element(text.substr(0, text.find_first_of("= \t\r\n")))) return true;
+                }
+        return false;
+    }
+
     void read_behaviour(const XmlNode& node) {
+        if (!shows_function(node)) {
+            if (const std::string_view signal = signal_asked_of(node); !signal.empty())
+                return read_signal(node, signal);
+        }
         const bool has_description = std::any_of(node.children.begin(), node.children.end(),
                                                  [](const XmlNode& c) { return c.name == "description"; });
         if (node.name != "gesture" && !has_description) {
@@ -291,7 +393,8 @@ class BmlReader {
     }
 
     void note_unshown(const XmlNode& node) {
-        note(node, format("<{}> without a reference to a function is not shown", node.name));
+        note(node, format("<{}> with neither a known lexeme nor a reference to a function is not shown",
+                          node.name));
     }
 
     void add_behaviour(const XmlNode& node, Mark mark) {
@@ -308,6 +411,9 @@ class BmlReader {
             mark.times = {};
         } else if (mark.value.empty()) {
             mark.value = mark.reference;
+        } else if (mark.reference.empty()) {
+            for (const Lexeme& lexeme : kGestureLexemes)
+                if (letters_of(mark.value) == lexeme.part) mark.reference = lexeme.signal;
         }
         if (node.name == "gesture" && mark.value.empty())
             throw Error(

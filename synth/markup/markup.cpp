@@ -42,7 +42,8 @@ std::vector<Mark> emphases_of(const SpokenMarkdown& markdown, std::span<const Sc
 }
 
 MarkedText parse_plain(const MarkupSource& source) {
-    const std::optional<SpokenMarkdown> markdown = read_markdown(source.text);
+    const std::optional<SpokenMarkdown> markdown =
+        source.is_heard ? std::nullopt : read_markdown(source.text);
     MarkedText text{.script = markdown ? markdown->text : source.text};
     text.words = find_words(text.script);
     if (text.words.empty())

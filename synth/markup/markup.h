@@ -26,6 +26,7 @@ struct MarkupSource {
     std::string text;                // UTF-8, at most 1 MiB
     std::string name = "text";       // what messages call it: a file, or an option
     std::string language = "en-us";  // of the words, as espeak-ng names it
+    bool is_heard = false;           // its words are those of a recording, in which signs are no Markdown
 };
 
 // By the first element; plain text if there is none.

@@ -45,6 +45,7 @@ enum class SignalKind {
 
 // "brow raise"
 std::string_view name_of(SignalKind kind);
+std::optional<SignalKind> signal_named(std::string_view name);
 
 struct Signal {
     SignalKind kind = SignalKind::nod;

@@ -161,8 +161,38 @@ class SignalPlanner {
     // it.
     static double threshold_of_chance(double drawn, double likely) { return drawn / (2 * likely); }
 
+    // At the times that its author gave; what they leave open follows from the usual course.
+    void add_asked(const PlannedAct& act, const Mark& mark) {
+        constexpr double kShortest = 0.1;  // [s]
+        const SignalKind kind = *signal_named(mark.value);
+        const MarkTimes& times = mark.times;
+        const Course course = course_of(kind);
+        const auto at = [&](const std::optional<SyncPoint>& point) -> std::optional<double> {
+            return point ? std::optional(std::max(0.0, time_of(*point, plan_.speech))) : std::nullopt;
+        };
+        const auto start = at(times.start), relax = at(times.relax), end = at(times.end);
+        std::optional<double> peak;
+        for (const auto& point : {times.stroke, times.ready, times.stroke_start, times.stroke_end})
+            if (!peak) peak = at(point);
+        const bool is_movement = kind == SignalKind::nod || kind == SignalKind::shake;
+        if (!peak && start && end && is_movement) peak = (*start + *end) / 2;
+        if (!peak && start) peak = *start + course.attack;
+        if (!peak && relax) peak = *relax - course.hold;
+        if (!peak && end) peak = *end - course.decay - course.hold;
+        Signal signal{.kind = kind, .peak = std::max(0.0, peak.value_or(act.moment))};
+        signal.start = start.value_or(std::max(0.0, signal.peak - course.attack));
+        const double usual = signal.peak + course.hold;
+        signal.hold = relax.value_or(end && !is_movement ? *end - course.decay : usual);
+        signal.end = std::max(end.value_or(signal.hold + course.decay), signal.start + kShortest);
+        signal.peak = std::clamp(signal.peak, signal.start, signal.start + (signal.end - signal.start) / 2);
+        signal.hold = std::clamp(signal.hold, signal.peak, signal.end);
+        signal.amount = std::clamp(1 + 0.5 * act.manner[Expressivity::spatial_extent], 0.05, 2.0);
+        candidates_.push_back({signal, threshold_of(act, mark.weight)});
+    }
+
     void add_act(const PlannedAct& act) {
         const Mark& mark = plan_.speech.marks[act.mark];
+        if (mark.kind == MarkKind::signal) return add_asked(act, mark);
         const double threshold = threshold_of(act, mark.weight);
         for (const Shown& shown : kShown)
             if (shown.kind == mark.kind && shown.value == mark.value)

@@ -224,6 +224,14 @@ TEST_F(Synth, SaysThatTheEndOfARecordingCutsAGestureOff) {
                                HasSubstr(" s, but the speech ends at 2.00 s and cuts it off")));
 }
 
+TEST_F(Synth, TakesTheWordsOfARecordingAsTheyStand) {
+    const std::string wav = (source_dir() / "assets/samples/speech/two-ways.wav").string();
+    write_text(file("w.csv"), "word,start,end\n*hello*,1,1.4\n[world](a),2,2.6\n");
+    const Outcome made = synth({"--speech", wav, "--words", file("w.csv")});
+    EXPECT_EQ(made.exit_code, 0);
+    EXPECT_THAT(made.err, Not(HasSubstr("Markdown")));
+}
+
 TEST_F(Synth, GesturesWithTheWordsOfTheSpeakerWhoIsChosen) {
     const std::string wav = (source_dir() / "assets/samples/speech/two-ways.wav").string();
     write_text(file("w.csv"), "word,start,end,speaker\nhello,1,1.4,Ann\ngoodbye,2,2.6,Ben\n");
@@ -273,6 +281,32 @@ TEST_F(Synth, TakesTheChannelOfAPersonFromASoundOfTwo) {
     fs::remove(file("m.h5"));
     EXPECT_THAT(refusal({"--speech", file("one.wav"), "--speech-channel", "left"}),
                 HasSubstr("one.wav: it has 1 channel, but one side of 2 was asked for"));
+}
+
+TEST_F(Synth, DoesNotSpeakTheSignsOfMarkdown) {
+    const auto sound_of = [&](const std::string& text) {
+        EXPECT_EQ(synth({"--text", text, "--speech-out", file("s.wav")}).exit_code, 0);
+        return read_bytes(file("s.wav"));
+    };
+    EXPECT_EQ(sound_of("It is **really** big.\n"), sound_of("It is really big.\n"));
+}
+
+TEST_F(Synth, ShowsHeadsFacesAndGazesOfBml) {
+    write_text(file("t.bml"),
+               "<bml><speech id=\"s\"><text>Well <sync id=\"A\"/>thank <sync id=\"B\"/>you</text></speech>"
+               "<head lexeme=\"NOD\" start=\"s:A\" end=\"s:B\"/><faceLexeme lexeme=\"smile\" start=\"s:A\" "
+               "end=\"s:end\"/><gaze target=\"user\" start=\"s:B\"/></bml>");
+    const Outcome made = synth({"--bml", file("t.bml"), "--score-out", file("s.json")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Json score = read_json(file("s.json"));
+    const auto starts_at_word = [&](const std::string& name, std::size_t word) {
+        return std::ranges::any_of(score["signals"], [&](const Json& signal) {
+            return signal["signal"] == name && signal["start"] == score["words"][word]["start"];
+        });
+    };
+    EXPECT_TRUE(starts_at_word("nod", 1)) << score["signals"];
+    EXPECT_TRUE(starts_at_word("smile", 1));
+    EXPECT_TRUE(starts_at_word("look at", 2));
 }
 
 TEST_F(Synth, SaysThatTagsAreSpokenAsWords) {

@@ -183,12 +183,13 @@ TEST(Bml, NotesWhatGretaWritesAndNothingHereShows) {
 TEST(Bml, NotesWhatStandardBmlHasAndNothingHereShows) {
     const MarkedText text = parsed(
         "<constraint><synchronize><sync ref=\"s:A\"/></synchronize></constraint>\n"
-        "<head id=\"h\" lexeme=\"NOD\" repetition=\"2\" start=\"x:y\"/>\n"
+        "<head id=\"h\" lexeme=\"DOWN_ASIDE_LEFT\" repetition=\"2\" start=\"x:y\"/>\n"
         "<face amount=\"1\" overshoot=\"0.1\"><description><reference>emotion=joy</reference></description></face>\n"
         "<required><gesture lexeme=\"a\" own:speed=\"2\"/></required><own:dance/>");
     EXPECT_THAT(marks_in(text), ElementsAre("emotion=joy(One two three)", "gesture=a(One two three)"));
     EXPECT_THAT(text.notes, ElementsAre("talk.bml:1:85: <constraint> is not shown",
-                                        "talk.bml:2:2: <head> without a reference to a function is not shown",
+                                        "talk.bml:2:2: <head> with neither a known lexeme nor a reference to "
+                                        "a function is not shown",
                                         "talk.bml:3:2: overshoot of <face> changes nothing here",
                                         "talk.bml:4:12: own:speed of <gesture> changes nothing here",
                                         "talk.bml:4:58: <own:dance> is not shown"));
@@ -198,11 +199,47 @@ TEST(Bml, ReadsTheFunctionsThatHeadAndFaceShow) {
     const MarkedText text = parsed(
         "<face id=\"f\" lexeme=\"smile\" "
         "start=\"s:A\"><description><reference>emotion=happy</reference></description></face>"
-        "<head id=\"h\" lexeme=\"NOD\" start=\"s:A\"/><head id=\"i\" lexeme=\"NOD\" start=\"s:B\"/>");
+        "<head id=\"h\" lexeme=\"UP\" start=\"s:A\"/><head id=\"i\" lexeme=\"UP\" start=\"s:B\"/>");
     EXPECT_THAT(marks_in(text), ElementsAre("emotion=joy(two)"));
     EXPECT_THAT(
         text.notes,
-        ElementsAre("talk.bml:1:195: <head> without a reference to a function is not shown (2 times)"));
+        ElementsAre("talk.bml:1:195: <head> with neither a known lexeme nor a reference to a function is "
+                    "not shown (2 times)"));
+}
+
+TEST(Bml, ReadsHeadsFacesAndGazesThatAreAskedFor) {
+    const MarkedText text = parsed(
+        "<head id=\"h\" lexeme=\"NOD\" start=\"s:A\" end=\"s:B\" amount=\"0.75\"/>"
+        "<head type=\"Head_Shake\" stroke=\"s:B\"/>"
+        "<faceLexeme lexeme=\"RAISE_MOUTH_CORNERS\" start=\"s:A\" end=\"s:end+0.5\"/>"
+        "<face start=\"s:A\"><description><reference>faceexp=Eyebrows_Raise</reference></description></face>"
+        "<face start=\"s:A\"><lexeme lexeme=\"LOWER_BROWS\"/></face>"
+        "<gaze target=\"Camera\" start=\"s:B\"/><gaze target=\"user\" offsetDirection=\"LEFT\" start=\"s:start\"/>");
+    EXPECT_THAT(marks_in(text, MarkKind::signal),
+                ElementsAre("signal=look away(One)", "signal=nod(two)", "signal=smile(two three)",
+                            "signal=brow raise(two)", "signal=frown(two)", "signal=shake(three)",
+                            "signal=look at(three)"));
+    const Mark& nod = text.marks[1];
+    EXPECT_EQ(nod.times.start, (SyncPoint{1, 0}));
+    EXPECT_EQ(nod.times.end, (SyncPoint{2, 0}));
+    EXPECT_EQ(nod.manner[Expressivity::spatial_extent], 0.5);
+    EXPECT_EQ(nod.weight, 1);
+    EXPECT_THAT(
+        text.notes,
+        ElementsAre(::testing::EndsWith("\"Camera\", at which <gaze> looks, is where the partner is")));
+    EXPECT_THAT(refusal("<head lexeme=\"NOD\" start=\"x:y\"/>"), StartsWith("talk.bml:1:"));
+    EXPECT_THAT(refusal("<head lexeme=\"NOD\" start=\"s:B\" end=\"s:A\"/>"), StartsWith("talk.bml:1:"));
+    EXPECT_THAT(refusal("<head lexeme=\"NOD\" amount=\"2\"/>"), StartsWith("talk.bml:1:"));
+}
+
+TEST(Bml, ReadsTheGesturesOfItsCoreAsWhatTheyShow) {
+    const MarkedText text =
+        parsed("<gesture lexeme=\"BEAT\"/><gesture lexeme=\"WAVE\"/><gesture lexeme=\"hop\"/>");
+    ASSERT_EQ(text.marks.size(), 3u);
+    EXPECT_EQ(text.marks[0].reference, "emphasis");
+    EXPECT_EQ(text.marks[1].reference, "performative=greet");
+    ASSERT_EQ(text.asked_gestures.size(), 1u);
+    EXPECT_EQ(text.asked_gestures[0].name, "hop");
 }
 
 TEST(Bml, NotesWhatHasNoPlaceInTheManner) {

@@ -61,6 +61,35 @@ TEST(PlanSignals, ActsShowInHeadFaceAndGaze) {
     EXPECT_EQ(shown_by(MarkKind::world, "size-big"), Kinds{});
 }
 
+TEST(PlanSignals, AreAtTheTimesThatTheirAuthorGave) {
+    const auto asked = [](const std::string& value, MarkTimes times) {
+        Mark mark{.kind = MarkKind::signal, .value = value, .end_word = 2, .weight = 1};
+        mark.times = std::move(times);
+        const std::vector<Signal> signals = signals_of(spoken("one two", {mark}), speaker_of(1e-6));
+        EXPECT_EQ(signals.size(), 1u);
+        return signals.empty() ? Signal{} : signals[0];
+    };
+    const auto at = [](double seconds) { return SyncPoint{std::nullopt, seconds}; };
+    const Signal smile = asked("smile", {.start = at(1), .relax = at(3), .end = at(4)});
+    EXPECT_EQ(smile.kind, SignalKind::smile);
+    EXPECT_DOUBLE_EQ(smile.start, 1);
+    EXPECT_DOUBLE_EQ(smile.peak, 1.5);
+    EXPECT_DOUBLE_EQ(smile.hold, 3);
+    EXPECT_DOUBLE_EQ(smile.end, 4);
+    const Signal nod = asked("nod", {.start = at(1), .end = at(2)});
+    EXPECT_DOUBLE_EQ(nod.peak, 1.5);
+    EXPECT_DOUBLE_EQ(nod.hold, 1.52);
+    EXPECT_DOUBLE_EQ(nod.end, 2);
+    const Signal brows = asked("brow raise", {.stroke = at(2)});
+    EXPECT_DOUBLE_EQ(brows.start, 1.8);
+    EXPECT_DOUBLE_EQ(brows.peak, 2);
+    const Signal quick = asked("look at", {.start = at(1), .end = at(1)});
+    EXPECT_LE(quick.start, quick.peak);
+    EXPECT_LE(quick.peak, quick.hold);
+    EXPECT_LE(quick.hold, quick.end);
+    EXPECT_GT(quick.end, quick.start);
+}
+
 TEST(PlanSignals, AreFilteredAsGesturesAre) {
     Speech speech =
         spoken("one", {{.kind = MarkKind::emotion, .value = "joy", .end_word = 1, .weight = 0.4}});
