@@ -141,6 +141,28 @@ Json to_shown(const Json& value, const Question& question, const std::vector<std
     return to_places(value, question, shown_at, names_a_side);
 }
 
+std::string fault_of_reasons(const Question& question, const Json& value, const Json& given) {
+    const Reasons& asked = *question.reasons;
+    const bool needed = !value.is_null() && value != asked.unless;
+    if (given.is_null()) return needed ? "a reason is needed" : "";
+    const auto is_known = [](const auto& item) { return item.key() == "chosen" || item.key() == "other"; };
+    if (!given.is_object() || !std::ranges::all_of(given.items(), is_known) || !given.contains("chosen") ||
+        !given["chosen"].is_array())
+        return "reasons need {\"chosen\": [...], \"other\": \"...\"}";
+    std::set<std::string> chosen;
+    for (const Json& reason : given["chosen"]) {
+        const bool is_one =
+            reason.is_string() && std::ranges::find(asked.options, reason.get<std::string>(),
+                                                    &QuestionOption::id) != asked.options.end();
+        if (!is_one || !chosen.insert(reason.get<std::string>()).second)
+            return format("{} is none of its reasons, or is there twice", reason.dump(-1, ' ', true));
+    }
+    const Json other = given.value("other", Json(""));
+    if (!other.is_string() || (asked.other.empty() && other != ""))
+        return format("{} is no other reason", other.dump(-1, ' ', true));
+    return needed && chosen.empty() && other == "" ? "a reason is needed" : "";
+}
+
 int check_tolerance(const Question& question) {
     if (question.kind != QuestionKind::slider) return 0;
     return 3 * (question.most.value_or(100) - question.least.value_or(0)) / 100;

@@ -15,6 +15,11 @@ namespace chironomia::study {
 // needed". "" if it does; null answers an optional question.
 std::string fault_of_answer(const Question& question, const Json& value, std::size_t places);
 
+// What is wrong with `given` as the reasons for `value`, an answer to a question that asks for reasons: "smooth is none
+// of its reasons, or is there twice". `given`: {"chosen": [...], "other": "..."}, or null where none were given; `value`
+// may be null, too, which needs none. "" if nothing is.
+std::string fault_of_reasons(const Question& question, const Json& value, const Json& given);
+
 // How far an answer to a preference is from equal: above 0 towards the left video. Without an answer in the
 // middle the nearest are 1 and -1.
 int steps_towards_left(int value, std::size_t answers);

@@ -1,7 +1,6 @@
 #include "study/server/answer_validation.h"
 
 #include <algorithm>
-#include <set>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -25,17 +24,15 @@ bool lies_in(const Json& value, double least, double most) {
     return value.get<double>() >= least && value.get<double>() <= most;
 }
 
-bool is_one_of(const Json& value, const std::vector<QuestionOption>& options) {
-    return value.is_string() &&
-           std::any_of(options.begin(), options.end(), [&](const QuestionOption& option) {
-               return option.id == value.get_ref<const std::string&>();
-           });
+const Json kNone = nullptr;
+
+// As a message may show it, whatever was sent.
+std::string shortened(const std::string& text) {
+    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
-// A value as a message may show it: short, whatever was sent.
 std::string shown(const Json& value) {
-    const std::string text = value.dump(-1, ' ', true);
-    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+    return shortened(value.dump(-1, ' ', true));
 }
 
 bool has_only_keys(const Json& object, const std::vector<std::string>& names) {
@@ -78,29 +75,12 @@ std::string fault_of_values(const std::vector<const Question*>& asked, const Jso
 }
 
 std::string fault_of_reason(const Question& question, const Json& values, const Json& reasons) {
-    const Reasons& asked = *question.reasons;
-    const bool open = is_left_open(values, question.id);
-    const bool needed = !open && values.at(question.id) != asked.unless;
-    if (!reasons.contains(question.id)) {
-        return needed ? format("{}: a reason is needed", question.id) : "";
-    }
-    const Json& given = reasons.at(question.id);
-    if (!has_only_keys(given, {"chosen", "other"}) || !given.contains("chosen") ||
-        !given["chosen"].is_array()) {
-        return format("{}: its reasons need {{\"chosen\": [...], \"other\": \"...\"}}", question.id);
-    }
-    std::set<std::string> chosen;
-    for (const Json& reason : given["chosen"]) {
-        if (!is_one_of(reason, asked.options) || !chosen.insert(reason.get<std::string>()).second) {
-            return format("{}: {} is none of its reasons, or is there twice", question.id, shown(reason));
-        }
-    }
-    const Json other = given.value("other", Json(""));
-    if (!other.is_string() || is_too_long(other) || (asked.other.empty() && other != "")) {
-        return format("{}: {} is no other reason", question.id, shown(other));
-    }
-    if (needed && chosen.empty() && other == "") return format("{}: a reason is needed", question.id);
-    return "";
+    const Json& given = reasons.contains(question.id) ? reasons.at(question.id) : kNone;
+    if (given.is_object() && given.contains("other") && is_too_long(given["other"]))
+        return format("{}: {} is no other reason", question.id, shown(given["other"]));
+    const std::string fault = study::fault_of_reasons(
+        question, is_left_open(values, question.id) ? kNone : values.at(question.id), given);
+    return fault.empty() ? "" : format("{}: {}", question.id, shortened(fault));
 }
 
 std::string fault_of_reasons(const std::vector<const Question*>& asked, const Json& values,

@@ -166,8 +166,11 @@ TEST_F(ReadAnswers, RefusesUnknownPagesAndVideos) {
 
 TEST_F(ReadAnswers, RefusesUnknownQuestionsAndReasons) {
     first()["reasons"] = {{"realism", {{"chosen", {"smooth"}}, {"other", ""}}}};
-    EXPECT_THAT(refusal(),
-                HasSubstr("reasons.realism.chosen[0]: is \"smooth\", which is none of \"smoothness\""));
+    EXPECT_THAT(refusal(), HasSubstr("\"smooth\" is none of its reasons, or is there twice"));
+    first()["reasons"] = {{"realism", {{"chosen", {"smoothness", "smoothness"}}, {"other", ""}}}};
+    EXPECT_THAT(refusal(), HasSubstr("reasons.realism: is {"));
+    first()["reasons"] = {{"realism", {{"chosen", Json::array()}, {"other", 3}}}};
+    EXPECT_THAT(refusal(), HasSubstr("3 is no other reason"));
     first()["reasons"] = {{"age", {{"chosen", Json::array()}, {"other", ""}}}};
     EXPECT_THAT(refusal(), HasSubstr("reasons.age: the question asks for no reasons"));
     first()["values"]["realis"] = 1;
