@@ -50,7 +50,7 @@ Avatar made_upright(GltfScene& scene, HumanoidGuess guess) {
     finish_human_materials(scene.avatar);
     for (std::string& note : guess.notes) scene.avatar.humanoid_notes.push_back(std::move(note));
     join_second_armatures(scene.avatar);
-    return stand_upright(std::move(scene.avatar));
+    return turn_upright(std::move(scene.avatar));
 }
 
 }  // namespace

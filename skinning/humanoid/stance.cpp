@@ -128,7 +128,7 @@ Stance stance_of(const Skeleton& skeleton, const HumanoidMap& humanoid) {
     return {.up = normalize(up), .forward = normalize(forward)};
 }
 
-Avatar stand_upright(Avatar avatar) {
+Avatar turn_upright(Avatar avatar) {
     const Stance stance = stance_of(avatar.skeleton, avatar.humanoid);
     const Quat axes = axes_of(avatar, stance);
     const Quat right_angles = right_angles_to_upright(in_axes(stance, axes));

@@ -7,7 +7,7 @@
 
 namespace chironomia {
 
-// The name of the joint that stand_upright puts above all others when something has to change.
+// The name of the joint that turn_upright puts above all others when something has to change.
 inline constexpr std::string_view kUprightJoint = "chironomia_upright";
 
 // Where a humanoid in its rest pose points.
@@ -22,6 +22,6 @@ Stance stance_of(const Skeleton& skeleton, const HumanoidMap& humanoid);
 // scales it into metres if it is not as tall as a person, and sets its lowest point on y = 0. Leaves an
 // avatar that already stands so as it is. Adds a note for each thing it changes.
 // Throws Error if scales blow the rest pose up beyond all numbers.
-Avatar stand_upright(Avatar avatar);
+Avatar turn_upright(Avatar avatar);
 
 }  // namespace chironomia
