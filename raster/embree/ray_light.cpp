@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/studio/ambient_occlusion.h"
 #include "raster/studio/floor_shadow.h"
 #include "raster/studio/shading.h"
 
@@ -12,9 +13,6 @@ namespace {
 constexpr float kFar = 1e6f;  // lights stand behind everything [m]
 
 constexpr float kFloorOff = 1e-3f;  // [m]
-
-// The light that reaches a fully occluded place from the surfaces around it, as in raster/studio/ambient_occlusion.cpp.
-constexpr float kBounced = 0.25f;
 
 // Which pattern of a pixel a pair of numbers comes from.
 enum class LightUse : std::uint32_t { occlusion = 11, light = 12, sky = 40, height = 41 };

@@ -1,6 +1,7 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <memory>
 
 #include "core/error.h"
 #include "raster/gl/gl_backend.h"
@@ -47,6 +48,12 @@ OsMesa load_osmesa() {
 // OSMesa wants a window of its own; everything is drawn into framebuffer objects, so it stays tiny.
 constexpr int kWindowSide = 16;
 
+// A context and the window that it needs, though everything is drawn into textures.
+struct Context {
+    void* context = nullptr;
+    std::array<unsigned char, kWindowSide * kWindowSide * 4> window{};
+};
+
 }  // namespace
 
 bool has_osmesa() {
@@ -57,20 +64,24 @@ GlBackendContext open_osmesa() {
     static const OsMesa mesa = load_osmesa();
     const int attributes[] = {kFormat,       kRgba, kDepthBits,    0, kProfile, kCoreProfile,
                               kMajorVersion, 4,     kMinorVersion, 5, 0};
-    void* context = mesa.create(attributes, nullptr);
-    if (!context)
+    auto made = std::make_unique<Context>();
+    made->context = mesa.create(attributes, nullptr);
+    if (!made->context)
         throw Error(
             "OSMesa: no OpenGL 4.5 core context can be made; unset GALLIUM_DRIVER or install Mesa 22.3");
 
-    auto window = std::make_shared<std::array<unsigned char, kWindowSide * kWindowSide * 4>>();
+    Context* const context = made.get();
     return {.make_current =
-                [context, window] {
-                    return mesa.make_current(context, window->data(), kUnsignedByte, kWindowSide,
-                                             kWindowSide) != 0;
+                [context] {
+                    return mesa.make_current(context->context, context->window.data(), kUnsignedByte,
+                                             kWindowSide, kWindowSide) != 0;
                 },
             .release = [] { mesa.make_current(nullptr, nullptr, 0, 0, 0); },
             .find = [](const char* name) { return mesa.find(name); },
-            .handle = {context, [](void* handle) { mesa.destroy(handle); }}};
+            .handle = {made.release(), [](void* handle) {
+                           const std::unique_ptr<Context> owned(static_cast<Context*>(handle));
+                           mesa.destroy(owned->context);
+                       }}};
 }
 
 }  // namespace chironomia

@@ -15,9 +15,6 @@ constexpr int kSide = 384;  // of each depth map [texels]
 constexpr int kCloseSide = 256;
 constexpr int kMapsAhead = 2;  // drawn at a time
 
-// The light that reaches a fully occluded place from the surfaces around it, and in other poses.
-constexpr float kBounced = 0.25f;
-
 // Directions spread evenly over the sphere: a spiral of golden angles.
 Vec3 direction(int index) {
     const float y = 1 - 2 * (static_cast<float>(index) + 0.5f) / kDirections;

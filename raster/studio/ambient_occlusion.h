@@ -10,10 +10,13 @@
 
 namespace chironomia {
 
+// The light that reaches a fully occluded place from the surfaces around it, and in other poses; ours, by eye.
+inline constexpr float kBounced = 0.25f;
+
 // (surfaces)(V) The share of ambient light that arrives in the pose of `mesh`, in [0, 1]: 1 where nothing is occluded.
 // Weighted with the cosine to the normal. Light reaches what lies in the mouth from in front alone, past teeth, gums
 // and tongue: lips that are closed at rest are open when it is seen. Depth maps are finer within the boxes `near`: the
-// face, with eyes, nostrils and lips, and the hands. A fully occluded place keeps 0.25, for the light that bounces.
+// face, with eyes, nostrils and lips, and the hands. A fully occluded place keeps kBounced.
 std::vector<std::vector<float>> ambient_occlusion_of(const PosedMesh& mesh, const ShadowCaster& caster,
                                                      std::span<const Bounds> near = {});
 
