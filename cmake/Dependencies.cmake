@@ -49,7 +49,7 @@ if(CHIRONOMIA_LEARNING)
     endif()
 endif()
 
-pkg_check_modules(FREETYPE REQUIRED IMPORTED_TARGET freetype2)
+find_package(Freetype REQUIRED)
 
 find_package(CLI11 CONFIG REQUIRED)
 find_package(Boost 1.74 CONFIG REQUIRED)  # headers alone, of Boost.Math

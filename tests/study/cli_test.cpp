@@ -66,6 +66,8 @@ TEST(Cli, TheVersionSaysWhatThisMachineHas) {
                                         "Embree  [34]\\.[0-9.]+\nFFmpeg  .+\nTorch   .+\n"
                                         "Built with\n(  [A-Za-z0-9_-]+ [0-9.]+\n)+"));
     EXPECT_THAT(version.out, HasSubstr("\n  HDF5 1."));
+    for (const char* library : {"Draco", "FreeType", "libwebp", "meshoptimizer", "tinygltf"})
+        EXPECT_THAT(version.out, HasSubstr(format("\n  {} ", library)));
 }
 
 // A machine without OSMesa: the loader meets files of its name that are no libraries.
