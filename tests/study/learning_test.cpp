@@ -237,7 +237,8 @@ TEST_F(Learning, GoesFromDyadsToSomebodyWhoListens) {
     write_dyads(folder_ / "dyads");
     train("amii", "dyads", "m.safetensors");
     for (const char* part : {"m.safetensors", "m.json"})
-        EXPECT_THAT(must({"info", file(part)}), HasSubstr("amii, preset small, 13908 numbers"));
+        EXPECT_THAT(must({"info", file(part)}), AllOf(HasSubstr("amii, preset small, 13908 numbers"),
+                                                      HasSubstr("encoder-sharing shared")));
     EXPECT_EQ(must({"info", file("dyads")}), must({"corpus", "info", file("dyads")}));
     const Json found = evaluate("m.safetensors", "dyads");
     EXPECT_EQ(found["tables"]["pairs"][0]["model"], "people");

@@ -24,6 +24,7 @@
 #include "skinning/motion/other_formats.h"
 #include "skinning/motion/picture/openpose.h"
 #include "skinning/motion/points/bodies_json.h"
+#include "study/cli/options/model_options.h"
 #include "study/cli/options/option_kinds.h"
 #include "study/cli/options/people_options.h"
 #include "study/cli/verbs/verbs.h"
@@ -268,8 +269,11 @@ std::string model_text(const Json& model) {
     std::vector<std::string> inputs, outputs, options;
     for (const Json& name : model["inputs"]) inputs.push_back(name.get<std::string>());
     for (const Json& name : model["outputs"]) outputs.push_back(name.get<std::string>());
-    for (const auto& [key, value] : model["options"].items())
-        options.push_back(format("{} {}", key, value.is_string() ? value.get<std::string>() : value.dump()));
+    for (const auto& [key, value] : model["options"].items()) {
+        const auto reading = std::ranges::find(readings(), key, &Reading::key);
+        options.push_back(format("{} {}", reading == readings().end() ? key : reading->name,
+                                 value.is_string() ? value.get<std::string>() : value.dump()));
+    }
     const std::string encoder = model["text_encoder"].get<std::string>();
     std::string text = format("model      {}, preset {}, {} numbers", model["model"].get<std::string>(),
                               model["preset"].get<std::string>(), model["parameters"].get<std::size_t>());
