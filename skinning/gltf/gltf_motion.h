@@ -9,8 +9,8 @@
 
 namespace chironomia {
 
-// An animation of the file; all nodes of its scene as joints, in the file's own axes. The rate is that of its keys where they lie evenly. Scales and morph weights that move are left
-// out, which a note says.
+// An animation of the file; all nodes of its scene as joints, in the file's own axes. The rate is that of its keys where
+// they lie evenly. Scales and morph weights that move are left out, which a note says.
 //   fps        the rate at which the animation is sampled, instead of that of its keys
 //   animation  its name, or its number from 0; empty: the first that moves or turns a joint, else the first
 // Throws Error as read_animated_scene and animation_named, if there is no animation, if it moves nothing, or if its

@@ -46,8 +46,8 @@ double turn_named(std::string_view name);
 // above the hips, the left side is left, and a grown-up is 1.3 to 2.1 m tall; `notes` of the result say what
 // was found. The rest pose and the beginning of the motion (1 s) are each turned to face +z; joints below the
 // root keep their turns. The table of a face gives a motion with a face alone, for which only the rate can be
-// set by hand. Throws Error if the file is missing, broken, ambiguous or no motion, if its rate, or the
-// one that was set, is none of a motion (skinning/signal/frame_rate.h), or if an animation is chosen of what is no glTF.
+// set by hand. Throws Error if the file is missing, broken, ambiguous or no motion, if its rate, or the one that was
+// set, is none of a motion (skinning/signal/frame_rate.h), or if an animation is chosen of what is no glTF.
 Motion read_motion(const std::filesystem::path& file, const MotionHints& hints = {});
 
 // The endings of files that are taken for motions in folders; animated glTF, which may be avatars as well, is named one

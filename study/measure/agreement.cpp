@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/random.h"
+#include "study/measure/bootstrap.h"
 #include "study/measure/distributions.h"
 
 namespace chironomia::study {
@@ -103,20 +104,14 @@ std::optional<double> alpha_of(const std::vector<std::vector<Coincidence>>& unit
     return 1 - (all - 1) * observed / expected;
 }
 
-// How often each of `count` items is drawn.
-std::vector<double> draw(std::size_t count, Random& random) {
-    std::vector<double> times(count, 0);
-    for (std::size_t i = 0; i < count; ++i) ++times[random.below(static_cast<std::uint32_t>(count))];
-    return times;
-}
-
 std::optional<Interval> resampled(const std::vector<Unit>& units, std::size_t raters, const Values& values,
                                   std::uint64_t seed) {
     if (units.size() < 2 || raters < kFewestRaters) return std::nullopt;
     std::vector<double> drawn;
     Random random(seed);
     for (std::size_t sample = 0; sample < kResamples; ++sample) {
-        const std::vector<double> of_units = draw(units.size(), random), of_raters = draw(raters, random);
+        const std::vector<double> of_units = draw_items(units.size(), random),
+                                  of_raters = draw_items(raters, random);
         std::vector<std::vector<Coincidence>> chosen;
         for (std::size_t i = 0; i < units.size(); ++i) {
             if (of_units[i] == 0) continue;
@@ -126,8 +121,7 @@ std::optional<Interval> resampled(const std::vector<Unit>& units, std::size_t ra
         if (const auto alpha = alpha_of(chosen, values)) drawn.push_back(*alpha);
     }
     if (drawn.empty()) return std::nullopt;
-    std::sort(drawn.begin(), drawn.end());
-    return Interval{percentile_of_sorted(drawn, 0.025), percentile_of_sorted(drawn, 0.975)};
+    return interval_95(std::move(drawn));
 }
 
 // The mean squares of a table with one value for each target and rater.

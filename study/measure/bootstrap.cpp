@@ -2,27 +2,32 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
-
-#include "core/random.h"
+#include <utility>
 
 namespace chironomia::study {
+
+std::vector<double> draw_items(std::size_t count, Random& random) {
+    std::vector<double> times(count, 0);
+    for (std::size_t i = 0; i < count; ++i) ++times[random.below(static_cast<std::uint32_t>(count))];
+    return times;
+}
+
+Interval interval_95(std::vector<double> drawn) {
+    std::sort(drawn.begin(), drawn.end());
+    return {percentile_of_sorted(drawn, 0.025), percentile_of_sorted(drawn, 0.975)};
+}
 
 Bootstrapped bootstrap(std::size_t items, const WeightedStatistic& statistic, const Resampling& resampling) {
     Bootstrapped result{.value = statistic(std::vector<double>(items, 1))};
     if (!result.value || items < 2) return result;
     Random random(resampling.seed);
     std::vector<double> drawn;
-    std::vector<double> weights(items);
     for (std::size_t sample = 0; sample < resampling.samples; ++sample) {
-        std::fill(weights.begin(), weights.end(), 0);
-        for (std::size_t i = 0; i < items; ++i) ++weights[random.below(static_cast<std::uint32_t>(items))];
-        if (const auto value = statistic(weights)) drawn.push_back(*value);
+        if (const auto value = statistic(draw_items(items, random))) drawn.push_back(*value);
     }
     result.undefined = resampling.samples - drawn.size();
     if (10 * result.undefined >= resampling.samples) return result;
-    std::sort(drawn.begin(), drawn.end());
-    result.ci_95 = Interval{percentile_of_sorted(drawn, 0.025), percentile_of_sorted(drawn, 0.975)};
+    result.ci_95 = interval_95(std::move(drawn));
     return result;
 }
 

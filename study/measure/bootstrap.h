@@ -5,7 +5,9 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "core/random.h"
 #include "study/measure/bradley_terry.h"
 #include "study/measure/descriptive.h"
 
@@ -18,6 +20,12 @@ struct Bootstrapped {
     std::optional<Interval> ci_95;  // percentiles; none of fewer than two items or without a value
     std::size_t undefined = 0;      // resamples for which the statistic is not defined; they are left out
 };
+
+// How often each of `count` items, at least one, is drawn in one resample with replacement.
+std::vector<double> draw_items(std::size_t count, Random& random);
+
+// From the 2.5th to the 97.5th percentile of what resamples gave, at least one value.
+Interval interval_95(std::vector<double> drawn);
 
 // How often each item counts -> the statistic, if it is defined.
 using WeightedStatistic = std::function<std::optional<double>(std::span<const double> weights)>;

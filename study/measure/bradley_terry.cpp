@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/random.h"
+#include "study/measure/bootstrap.h"
 
 namespace chironomia::study {
 namespace {
@@ -150,16 +151,7 @@ std::vector<double> to_elo(const std::vector<double>& log_strengths) {
 // Resamples that differ by less than rounding are the same, and say nothing of other participants.
 std::optional<Interval> percentiles_95(const std::vector<double>& sorted) {
     constexpr double kRounding = 1e-6;
-    const Interval interval = {percentile_of_sorted(sorted, 0.025), percentile_of_sorted(sorted, 0.975)};
-    return sorted.back() - sorted.front() < kRounding ? std::nullopt : std::optional(interval);
-}
-
-// How often each participant is drawn in one resample.
-std::vector<double> draw_participants(std::size_t participants, Random& random) {
-    std::vector<double> times(participants, 0);
-    for (std::size_t i = 0; i < participants; ++i)
-        times[random.below(static_cast<std::uint32_t>(participants))] += 1;
-    return times;
+    return sorted.back() - sorted.front() < kRounding ? std::nullopt : std::optional(interval_95(sorted));
 }
 
 // The entries of each participant's own table that are not 0.
@@ -185,7 +177,7 @@ std::vector<std::vector<Entry>> tabulate_each(std::span<const Vote> votes, std::
 
 VoteTable resample(const std::vector<std::vector<Entry>>& tables, std::size_t conditions, Random& random) {
     VoteTable table{.conditions = conditions, .weights = std::vector<double>(conditions * conditions, 0)};
-    const std::vector<double> times = draw_participants(tables.size(), random);
+    const std::vector<double> times = draw_items(tables.size(), random);
     for (std::size_t p = 0; p < tables.size(); ++p) {
         if (times[p] == 0) continue;
         for (const Entry& entry : tables[p]) table.weights[entry.place] += times[p] * entry.weight;
