@@ -483,8 +483,9 @@ TEST(ReadGltfScene, SeesThroughWhatLetsLightThrough) {
     const Avatar scene = read(file);
     const auto is = [&](std::size_t material, AlphaMode mode, float alpha) {
         EXPECT_EQ(scene.materials[material].alpha_mode, mode) << material;
-        if (mode == AlphaMode::blend)
+        if (mode == AlphaMode::blend) {
             EXPECT_NEAR(scene.materials[material].base_colour.a, alpha, 1e-6f) << material;
+        }
     };
     is(0, AlphaMode::blend, 0.04f);
     is(1, AlphaMode::blend, 0.26f);
