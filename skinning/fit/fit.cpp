@@ -230,6 +230,13 @@ size_t source_frame(const FitReport& report, size_t frame) {
     return std::min(size_t(nearest), report.source_frames - 1);
 }
 
+std::vector<Finding> in_source_frames(std::vector<Finding> findings, const FitReport& report) {
+    for (Finding& finding : findings)
+        for (FrameSpan& span : finding.spans)
+            span = {source_frame(report, span.first), source_frame(report, span.last)};
+    return findings;
+}
+
 bool has_near(const Finding& finding, const FrameSpan& span) {
     return std::any_of(finding.spans.begin(), finding.spans.end(), [&](const FrameSpan& other) {
         return other.first <= span.last + 2 && span.first <= other.last + 2;
@@ -247,24 +254,26 @@ Finding flips_of_avatar(const Fit& fit, const PostureRig& rig, size_t side) {
                         rotation_of(world[size_t(rig.parts[hand])]));
     }
     Finding finding = check_hand(turns, side == 0 ? "left hand of the avatar" : "right hand of the avatar");
-    for (FrameSpan& span : finding.spans)
-        span = {source_frame(fit.report, span.first), source_frame(fit.report, span.last)};
+    finding = in_source_frames({std::move(finding)}, fit.report).front();
     for (const Finding& known : fit.report.findings) {
-        if (known.check != Check::turn_jump || known.part != name_of(hand)) continue;
+        if (known.check != Check::turn_jump || !known.part.starts_with(name_of(hand))) continue;
         std::erase_if(finding.spans, [&](const FrameSpan& span) { return has_near(known, span); });
     }
     return finding;
+}
+
+// Points have no turns, so that those of the avatar alone can jump.
+std::vector<Finding> turns_of_points(const FitReport& report, const std::vector<Posture>& postures) {
+    std::vector<Finding> findings = in_source_frames(check_turns(postures, report.fps), report);
+    for (Finding& finding : findings) finding.part += " of the avatar";
+    return findings;
 }
 
 // What is wrong with the avatar as it moves, in the frames of the motion as it came.
 void check_avatar(Fit& fit, const PostureRig& rig, const std::vector<Soles>& soles) {
     for (const size_t side : {0u, 1u}) add(fit.report.findings, {flips_of_avatar(fit, rig, side)});
     if (fit.report.stands_still) return;
-    std::vector<Finding> feet = check_feet(soles, fit.report.fps);
-    for (Finding& finding : feet)
-        for (FrameSpan& span : finding.spans)
-            span = {source_frame(fit.report, span.first), source_frame(fit.report, span.last)};
-    add(fit.report.findings, std::move(feet));
+    add(fit.report.findings, in_source_frames(check_feet(soles, fit.report.fps), fit.report));
 }
 
 // Where the hips head in each frame.
@@ -361,6 +370,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
                                  seen_picture(motion, space, options.fps));
     fit.poses = keep_rest_offset(std::move(posed.poses), rig);
     report.interpenetrations = find_interpenetrations(shape, avatar, fit.poses);
+    if (!motion.joints) add(report.findings, turns_of_points(report, source.body.postures));
     check_avatar(fit, rig, posed.soles);
     return fit;
 }
