@@ -91,9 +91,10 @@ class Judge {
                     format("stands in a T-pose in {}, {:.0f} % of the clip", place, 100 * share(finding)));
             case Check::turn_jump:
                 return give(is_rare(finding) ? Verdict::look_first : Verdict::do_not_show,
-                            format("{} {} by up to {:.0f} degrees from one frame to the next in {}{}",
-                                   finding.part, finding.worst >= kFlip ? "flips" : "turns", finding.worst,
-                                   place, finding.part.ends_with("of the avatar") ? "" : ", in the source"));
+                            format("{} {}{} by up to {:.0f} degrees from one frame to the next in {}{}",
+                                   finding.part, finding.worst >= kFlip ? "flip" : "turn",
+                                   is_plural(finding.part) ? "" : "s", finding.worst, place,
+                                   finding.part.ends_with("of the avatar") ? "" : ", in the source"));
             case Check::trunk_twist:
                 return give(Verdict::look_first,
                             format("{} are turned by up to {:.0f} degrees against the hips in {}",
@@ -110,6 +111,10 @@ class Judge {
                                    finding.part == "head" ? "the" : "a", finding.part, place,
                                    finding.part == "hand" ? "a wider scene" : "--follow or --in-place"));
         }
+    }
+
+    static bool is_plural(std::string_view part) {
+        return part.starts_with("hips") || part.starts_with("shoulders");
     }
 
     // What happens less often than once a second may be a glitch.

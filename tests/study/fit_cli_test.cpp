@@ -130,6 +130,29 @@ TEST(FitCli, SaysThatAHandFlipsInTheSource) {
     EXPECT_THAT(outcome.out, Not(HasSubstr("of the avatar flips")));
 }
 
+// A forearm that turns about itself for one frame: of points that is the avatar's, as points have no turns.
+TEST(FitCli, SaysThatAnAvatarPopsThatPointsMove) {
+    const TemporaryFolder folder;
+    Motion motion = read_motion(kMotion);
+    const Skeleton& skeleton = motion.joints->skeleton;
+    const auto arm = static_cast<std::size_t>(*testing::find_joint(skeleton, "RightArm"));
+    for (std::size_t t = 60; t < motion.frames; ++t) {
+        Quat& turn = motion.joints->turns[t * skeleton.joints.size() + arm];
+        turn = glm::angleAxis(1.2f, Vec3(0, 1, 0)) * turn;
+    }
+    write_bvh(folder / "pop.bvh", motion);
+    const fs::path picture = folder / "pop";
+    ASSERT_EQ(
+        run_chironomia({"convert", "--motion", (folder / "pop.bvh").string(), "--out", picture.string()})
+            .exit_code,
+        0);
+    const Outcome outcome = fit(
+        {picture.string(), "--lift-filter", "off", "--motion-fps", std::to_string(std::lround(motion.fps))});
+    EXPECT_THAT(outcome.out, HasSubstr("right_upper_arm of the avatar turns by up to ")) << outcome.err;
+    EXPECT_THAT(outcome.out, Not(HasSubstr("in the source")));
+    EXPECT_THAT(fit({kMotion}).out, Not(HasSubstr("of the avatar turns")));
+}
+
 TEST(FitCli, SaysThatAWalkerLeavesThePicture) {
     const Outcome outcome = fit({testing::test_file("tests/fixtures/gestures/walk.bvh").string()});
     EXPECT_THAT(outcome.out, HasSubstr("the head leaves the picture of the scene \"full\" in frames "));
