@@ -27,7 +27,7 @@ struct PostureLimits {
 };
 
 // Jumps and flips between two frames, in the order of the body, then the trunk against the shoulders.
-//   postures  (T) of joint turns; those of keypoints take their roll from what is not seen
+//   postures  (T) of joint turns, or of the avatar that points move, which take their roll from what is not seen
 std::vector<Finding> check_turns(const std::vector<Posture>& postures, double fps,
                                  const PostureLimits& limits = {});
 
