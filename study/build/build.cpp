@@ -11,11 +11,13 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/json_value.h"
 #include "core/files/scratch_folder.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "study/build/draft.h"
 #include "study/build/study_files.h"
+#include "study/record/study_record.h"
 
 namespace chironomia::study {
 namespace fs = std::filesystem;
@@ -101,35 +103,48 @@ void make_folder(const fs::path& folder) {
 // Whether the folder was finished as this study.
 bool is_same_study(const StudyFolder& study, const StudyDraft& draft) {
     if (!fs::exists(study.manifest())) return false;
-    const Json manifest = read_json(study.manifest());
-    return manifest.value("format", "") == kManifestFormat && manifest.value("recipe", "") == draft.recipe;
+    const Manifest manifest = read_manifest(study.manifest());
+    return manifest.format == kManifestFormat && manifest.recipe == draft.recipe;
+}
+
+bool is_as_listed(const StudyFolder& study, const ListedFile& output) {
+    const fs::path file = study.root / output.path;
+    return fs::is_regular_file(file) && sha256_of_file(file) == output.sha256;
 }
 
 // Whether it is still there, whole.
 bool is_finished(const StudyFolder& study, const StudyDraft& draft) {
     if (!is_same_study(study, draft) || !fs::exists(study.open())) return false;
-    const Json manifest = read_json(study.manifest());
-    return std::all_of(manifest["outputs"].begin(), manifest["outputs"].end(), [&](const Json& output) {
-        const fs::path file = study.root / output["path"].get<std::string>();
-        return fs::is_regular_file(file) && sha256_of_file(file) == output["sha256"];
+    return std::ranges::all_of(read_manifest(study.manifest()).outputs,
+                               [&](const ListedFile& output) { return is_as_listed(study, output); });
+}
+
+// Whether the notes of the finished study's recordings are those that it was built with.
+bool has_notes_of_recordings(const StudyFolder& study) {
+    if (!fs::exists(study.manifest()) || !fs::exists(study.recordings())) return false;
+    return std::ranges::any_of(read_manifest(study.manifest()).outputs, [&](const ListedFile& output) {
+        return study.root / output.path == study.recordings() && is_as_listed(study, output);
     });
 }
 
 // Takes back from the finished study in the folder what the new one needs too.
 void unpack_recordings(const StudyFolder& study, const std::vector<Video>& videos) {
-    if (!fs::exists(study.recordings())) return;
+    if (!has_notes_of_recordings(study)) return;
     std::map<std::string, const Video*> wanted;
     for (const Video& video : videos) wanted.emplace(video.recipe, &video);
-    for (Json note : read_json(study.recordings())) {
-        const auto video = wanted.find(note.value("recipe", ""));
-        const fs::path file = study.open() / note.value("file", "");
+    const Json notes = read_json(study.recordings());
+    for (const JsonValue& note : JsonValue(notes, study.recordings().string()).items(0)) {
+        const auto video = wanted.find(note.at("recipe").text());
+        const fs::path file = study.open() / note.at("file").text();
         if (video == wanted.end() || !fs::is_regular_file(file)) continue;
         const fs::path copy = recording_file(study.work(), *video->second);
         if (fs::exists(copy)) continue;
-        const std::string bytes = read_text(file).substr(0, note.value("bytes", std::size_t{0}));
-        if (sha256(bytes) != note["sha256"]) continue;
+        const std::string padded = read_text(file);
+        const std::string bytes =
+            padded.substr(0, static_cast<std::size_t>(note.at("bytes").integer(0, std::ssize(padded))));
+        if (sha256(bytes) != note.at("sha256").text()) continue;
         write_text(copy, bytes);
-        write_json(recording_note(study.work(), *video->second), note);
+        write_json(recording_note(study.work(), *video->second), note.json());
     }
 }
 
@@ -271,10 +286,12 @@ StudyState inspect_study(StudyDraft draft, const BuildOptions& options) {
 }
 
 std::vector<std::string> warnings_of_finished(const StudyDraft& draft, const fs::path& folder) {
-    const Json notes = read_json(StudyFolder{folder}.recordings());
+    const fs::path file = StudyFolder{folder}.recordings();
+    const Json json = read_json(file);
+    const std::vector<JsonValue> notes = JsonValue(json, file.string()).items(draft.videos.size());
     std::vector<RecordedVideo> recorded(draft.videos.size());
     for (std::size_t i = 0; i < recorded.size(); ++i)
-        recorded[i].result.warnings = notes.at(i).at("warnings").get<std::vector<std::string>>();
+        recorded[i].result.warnings = warnings_of_note(notes[i]);
     return list_warnings(draft, draft.videos, recorded);
 }
 

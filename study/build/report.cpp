@@ -98,16 +98,22 @@ std::string balance(const StudyDraft& draft) {
                   escape_html(balance_table(draft.all.design, condition_names(draft.plan))));
 }
 
+// What an object holds under a key; null if it is no object or has no such key.
+Json value_in(const Json& object, const char* key) {
+    return object.is_object() ? object.value(key, Json()) : Json();
+}
+
 // The part of the body that follows its motion worst, or "" if the recorder measured none.
 std::string worst_fit(const Json& report) {
     std::string worst_part;
     double worst = -1;  // [mm]
-    for (const Json& motion : report.value("motions", Json::array())) {
-        const Json fit = motion.value("fit", Json::object());
-        const Json errors = fit.value("distance_to_scaled_source_mm", Json::object());
+    const Json motions = value_in(report, "motions");
+    for (std::size_t i = 0; motions.is_array() && i < motions.size(); ++i) {
+        const Json errors = value_in(value_in(motions[i], "fit"), "distance_to_scaled_source_mm");
         for (const auto& [part, error] : errors.items()) {
-            if (error.value("mean", -1.0) <= worst) continue;
-            worst = error.value("mean", -1.0);
+            const Json mean = value_in(error, "mean");
+            if (!mean.is_number() || mean.get<double>() <= worst) continue;
+            worst = mean.get<double>();
             worst_part = part;
         }
     }
@@ -132,8 +138,7 @@ std::string figure_of(const StudyDraft& draft, std::size_t index, const Recorded
         "<figure>\n<video controls preload=\"metadata\" src=\"../public/{}\"></video>\n"
         "<figcaption><strong>{}</strong> {} frames, {:.2f} s{}<br><code>{}</code>",
         video_path(video.token, draft.plan.render.format), escape_html(description_of(draft, video)),
-        recorded.result.frames, recorded.result.seconds,
-        worst_fit(recorded.result.report.is_object() ? recorded.result.report : Json::object()), video.token);
+        recorded.result.frames, recorded.result.seconds, worst_fit(recorded.result.report), video.token);
     for (const std::string& warning : recorded.result.warnings) {
         html += format("<br><span class=\"note\">{}</span>", escape_html(warning));
     }

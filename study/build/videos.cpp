@@ -10,6 +10,7 @@
 #include "core/cores.h"
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/json_value.h"
 #include "core/files/scratch_folder.h"
 #include "core/hash.h"
 #include "core/progress.h"
@@ -125,19 +126,30 @@ Json as_json(const ClipResult& result) {
             {"report", result.report}};
 }
 
-// A recording that is there, whole and unchanged.
+RecordedVideo read_recording(const fs::path& file, const fs::path& note) {
+    constexpr long long kMost = 1LL << 40;
+    const Json json = read_json(note);
+    const JsonValue value(json, note.string());
+    RecordedVideo recorded{.file = file, .result = {}, .sha256 = value.at("sha256").text()};
+    recorded.result.frames = static_cast<std::size_t>(value.at("frames").integer(0, kMost));
+    recorded.result.seconds = value.at("seconds").number(0, kMost);
+    recorded.result.warnings = warnings_of_note(value);
+    recorded.result.report = value.at("report").json();
+    return recorded;
+}
+
+// A recording that is there, whole and unchanged. One whose note is damaged is made again.
 std::optional<RecordedVideo> find_recording(const fs::path& folder, const Video& video) {
     const fs::path file = recording_file(folder, video);
     const fs::path note = recording_note(folder, video);
     if (!fs::exists(file) || !fs::exists(note)) return std::nullopt;
-    const Json json = read_json(note);
-    if (sha256_of_file(file) != json.at("sha256")) return std::nullopt;
-    RecordedVideo found{.file = file, .result = {}, .sha256 = json.at("sha256")};
-    found.result.frames = json.at("frames");
-    found.result.seconds = json.at("seconds");
-    found.result.warnings = json.at("warnings").get<std::vector<std::string>>();
-    found.result.report = json.at("report");
-    return found;
+    try {
+        RecordedVideo found = read_recording(file, note);
+        if (sha256_of_file(file) != found.sha256) return std::nullopt;
+        return found;
+    } catch (const Error&) {
+        return std::nullopt;
+    }
 }
 
 int threads_for(int jobs) {
@@ -279,6 +291,15 @@ std::vector<std::size_t> draw_others(const Plan& plan, const std::vector<double>
 
 fs::path recording_file(const fs::path& folder, const Video& video) {
     return folder / (video.recipe + video.job.out.extension().string());
+}
+
+std::vector<std::string> warnings_of_note(const JsonValue& note) {
+    std::vector<std::string> warnings;
+    for (const JsonValue& warning : note.at("warnings").items(0)) {
+        if (!warning.json().is_string()) warning.refuse(format("is {}, a text is needed", warning.shown()));
+        warnings.push_back(warning.json().get<std::string>());
+    }
+    return warnings;
 }
 
 fs::path recording_note(const fs::path& folder, const Video& video) {

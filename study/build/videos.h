@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/files/json_value.h"
 #include "study/build/composition.h"
 #include "study/clip/clip.h"
 #include "study/design/design.h"
@@ -75,5 +76,8 @@ Recordings record_videos(const std::vector<Video>& videos, const RecordingOption
 // The file of a video with that recipe in a folder of recordings, and the note that says it is whole.
 std::filesystem::path recording_file(const std::filesystem::path& folder, const Video& video);
 std::filesystem::path recording_note(const std::filesystem::path& folder, const Video& video);
+
+// The warnings of one of recordings.json, or of a recording's note. Throws Error if they are no list of texts.
+std::vector<std::string> warnings_of_note(const JsonValue& note);
 
 }  // namespace chironomia::study

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "core/version.h"
 #include "study/record/study_folder.h"
+#include "study/record/study_record.h"
 #include "study/server/answers_file.h"
 #include "study/server/served_study.h"
 
@@ -21,8 +22,7 @@ namespace fs = std::filesystem;
 std::map<std::string, std::string> hashes_of_build(const StudyFolder& study) {
     std::map<std::string, std::string> hashes;
     if (!fs::exists(study.manifest())) return hashes;
-    for (const Json& file : read_json(study.manifest()).value("outputs", Json::array()))
-        hashes[file.at("path")] = file.at("sha256");
+    for (const ListedFile& file : read_manifest(study.manifest()).outputs) hashes[file.path] = file.sha256;
     return hashes;
 }
 

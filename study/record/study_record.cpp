@@ -1,5 +1,7 @@
 #include "study/record/study_record.h"
 
+#include <utility>
+
 #include "core/error.h"
 #include "core/files/json_value.h"
 #include "core/text.h"
@@ -8,15 +10,6 @@
 namespace chironomia::study {
 namespace fs = std::filesystem;
 namespace {
-
-void read_manifest(const fs::path& file, StudyRecord& study) {
-    const Json json = read_json(file);
-    const JsonValue manifest(json, file.string());
-    manifest.at("format").choice({std::string(kManifestFormat)});
-    study.program = manifest.at("program").text();
-    for (const JsonValue& output : manifest.at("outputs").items(1))
-        study.outputs.push_back({.path = output.at("path").text(), .sha256 = output.at("sha256").text()});
-}
 
 // Every text below a value, but for tokens and paths, which have properties of their own.
 void add_texts(const Json& json, std::vector<std::string>& texts) {
@@ -37,6 +30,19 @@ std::vector<std::string> texts_of_pages(const Json& json) {
 
 }  // namespace
 
+Manifest read_manifest(const fs::path& file) {
+    const Json json = read_json(file);
+    const JsonValue value(json, file.string());
+    const auto text = [&](const char* key) {
+        const auto found = value.find(key);
+        return found ? found->text() : "";
+    };
+    Manifest manifest{.format = text("format"), .program = text("program"), .recipe = text("recipe")};
+    for (const JsonValue& output : value.at("outputs").items(1))
+        manifest.outputs.push_back({.path = output.at("path").text(), .sha256 = output.at("sha256").text()});
+    return manifest;
+}
+
 StudyRecord read_study(const fs::path& folder) {
     const StudyFolder files{folder};
     if (!fs::is_directory(folder)) {
@@ -53,7 +59,13 @@ StudyRecord read_study(const fs::path& folder) {
     study.folder = folder;
     study.key = read_study_key(files.key());
     study.pages = read_study_pages(files.open() / "pages.json");
-    read_manifest(files.manifest(), study);
+    Manifest manifest = read_manifest(files.manifest());
+    if (manifest.format != kManifestFormat) {
+        throw Error(format("{}: format: is \"{}\", \"{}\" is needed; build the study again",
+                           files.manifest().string(), manifest.format, kManifestFormat));
+    }
+    study.program = std::move(manifest.program);
+    study.outputs = std::move(manifest.outputs);
     study.plan = read_json(files.plan());
     study.public_pages = read_json(files.open() / "pages.json");
     study.public_texts = texts_of_pages(study.public_pages);

@@ -16,6 +16,15 @@ struct ListedFile {
     std::string sha256;
 };
 
+// manifest.json: what built a study, and the files that it is made of.
+struct Manifest {
+    std::string format, program, recipe;  // "" where the file has none
+    std::vector<ListedFile> outputs;      // at least one
+};
+
+// Throws Error if the file is missing, no JSON, or lists no outputs with their hashes.
+Manifest read_manifest(const std::filesystem::path& file);
+
 struct StudyRecord {
     std::filesystem::path folder;
     std::string program;              // that built it

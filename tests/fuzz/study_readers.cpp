@@ -12,6 +12,7 @@
 #include "study/plan/plan.h"
 #include "study/record/key.h"
 #include "study/record/pages.h"
+#include "study/record/study_record.h"
 #include "tests/fuzz/fuzz_reader.h"
 #include "tests/support/support.h"
 
@@ -83,6 +84,8 @@ void read_shot_table(const FuzzInput& input) {
 const AddFuzzReader kPlan({"plan", "x.json", read_plan_file});
 const AddFuzzReader kScene({"scene", "x.json", read_scene});
 const AddFuzzReader kKey({"key", "x.json", [](const FuzzInput& input) { read_study_key(input.file()); }});
+const AddFuzzReader kStudyManifest({"study_manifest", "x.json",
+                                    [](const FuzzInput& input) { study::read_manifest(input.file()); }});
 const AddFuzzReader kPages({"pages", "x.json",
                             [](const FuzzInput& input) { read_study_pages(input.file()); }});
 const AddFuzzReader kAnswers({"answers", "x.json", read_answer_file});

@@ -468,7 +468,63 @@ TEST_F(BuildStudy, DoesNotTrustADamagedRecording) {
     EXPECT_EQ(build().recorded, 4u);
 }
 
+TEST_F(BuildStudy, DoesNotTrustADamagedNoteOfARecording) {
+    build("whole");
+    for (const char* damaged : {"", "{}", "5", R"({"sha256": 5})", R"({"sha256": "00", "frames": "many"})"}) {
+        SCOPED_TRACE(damaged);
+        fs::remove_all(folder_ / "study");
+        fake_.before = [count = 0](const ClipJob&) mutable {
+            if (++count == 4) throw Interrupted();
+        };
+        EXPECT_THROW(build(), Interrupted);
+        const fs::path work = folder_ / "study/private/work";
+        for (const std::string& name : list_files(work)) {
+            if (name.ends_with(".json")) write_text(work / name, damaged);
+        }
+        fake_.before = [](const ClipJob&) {};
+        EXPECT_EQ(build().recorded, 4u);
+        EXPECT_EQ(files_of("study"), files_of("whole"));
+    }
+}
+
+TEST_F(BuildStudy, RecordsAgainWhatItsNotesNoLongerSay) {
+    build();
+    const auto before = files_of("study");
+    const std::string notes = before.at("private/recordings.json");
+    Json odd = Json::parse(notes);
+    odd[0]["report"] = {{"motions", {{{"fit", {{"distance_to_scaled_source_mm", Json::array({5})}}}}, 7}}};
+    for (const std::string& damaged : {std::string("[{}]"), std::string("7"), std::string(), odd.dump()}) {
+        SCOPED_TRACE(damaged);
+        write_text(folder_ / "study/private/recordings.json", damaged);
+        EXPECT_EQ(build().recorded, 4u);
+        EXPECT_EQ(files_of("study"), before);
+    }
+}
+
 // ---- Refusals
+
+TEST_F(BuildStudy, RefusesADamagedManifest) {
+    build();
+    const fs::path file = folder_ / "study/private/manifest.json";
+    const Json whole = read_json(file);
+    const auto refusal_with = [&](const std::string& pointer, const Json& value) {
+        Json json = whole;
+        json[Json::json_pointer(pointer)] = value;
+        write_json(file, json);
+        return refusal_of([&] { build(); });
+    };
+    const std::string name = file.string() + ": ";
+    EXPECT_EQ(refusal_with("/outputs", Json::array()),
+              name + "outputs: has 0 entries, at least 1 are needed");
+    EXPECT_THAT(refusal_with("/outputs", 5), HasSubstr(name + "outputs: is 5"));
+    EXPECT_THAT(refusal_with("/outputs/0", 5), HasSubstr(name + "outputs[0]: is 5"));
+    EXPECT_THAT(refusal_with("/outputs/1/path", 5), HasSubstr(name + "outputs[1].path: is 5"));
+    EXPECT_THAT(refusal_with("/recipe", 5), HasSubstr(name + "recipe: is 5"));
+    Json none = whole;
+    none.erase("outputs");
+    write_json(file, none);
+    EXPECT_EQ(refusal_of([&] { build(); }), name + "outputs: is missing; add it");
+}
 
 TEST_F(BuildStudy, PassesOnWhyAVideoCannotBeRecordedFromAnyProcess) {
     for (const int jobs : {1, 3}) {

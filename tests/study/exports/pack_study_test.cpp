@@ -145,6 +145,10 @@ TEST_F(PackedStudy, IsRefusedWhereTheStudyIsDamagedOrHasNoAnswers) {
     EXPECT_THAT(changed.err, HasSubstr("public/style.css: has the SHA-256 " + sha256("body {}\n") +
                                        ", private/manifest.json says 00ff"));
     EXPECT_FALSE(fs::exists(archive()));
+    write_json(study() / "private/manifest.json", {{"outputs", {5}}});
+    const Outcome damaged = pack();
+    EXPECT_EQ(damaged.exit_code, 3);
+    EXPECT_THAT(damaged.err, HasSubstr("manifest.json: outputs[0]: is 5"));
     fs::remove(study() / "private/manifest.json");
     fs::create_directory(folder_ / "full");
     const Outcome full = testing::run_chironomia_with_file_limit(
