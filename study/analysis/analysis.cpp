@@ -29,7 +29,8 @@ constexpr const char* kAnalysisFormat = "chironomia analysis 1";
 std::string title_of(const StudyFolder& study) {
     const fs::path pages = study.open() / "pages.json";
     if (!fs::exists(pages)) return "";
-    const Json title = read_json(pages).value("title", Json());
+    const Json json = read_json(pages);
+    const Json title = json.is_object() ? json.value("title", Json()) : Json();
     return title.is_string() ? title.get<std::string>() : "";
 }
 
