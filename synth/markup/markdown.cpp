@@ -12,6 +12,7 @@ namespace {
 class Reader {
   public:
     std::optional<SpokenMarkdown> read(std::string_view text) {
+        has_hashes_ = text.find('#') != std::string_view::npos;
         MD_PARSER parser{};
         parser.flags = MD_FLAG_NOHTML;
         parser.enter_block = [](MD_BLOCKTYPE type, void* detail, void* reader) {
@@ -41,7 +42,8 @@ class Reader {
     };
 
     int enter_block(MD_BLOCKTYPE type, void* detail) {
-        if (type == MD_BLOCK_H) has_signs_ = true;
+        // One that is underlined has no sign that is spoken.
+        if (type == MD_BLOCK_H) has_signs_ |= has_hashes_;
         if (type == MD_BLOCK_CODE) has_signs_ |= static_cast<MD_BLOCK_CODE_DETAIL*>(detail)->fence_char != 0;
         if (type == MD_BLOCK_UL) {
             has_signs_ |= static_cast<MD_BLOCK_UL_DETAIL*>(detail)->mark != '-';
@@ -121,7 +123,7 @@ class Reader {
     SpokenMarkdown spoken_;
     std::vector<Open> open_;
     std::vector<List> lists_;
-    bool has_signs_ = false;
+    bool has_signs_ = false, has_hashes_ = false;
 };
 
 }  // namespace

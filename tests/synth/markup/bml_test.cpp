@@ -216,10 +216,10 @@ TEST(Bml, ReadsHeadsFacesAndGazesThatAreAskedFor) {
         "<face start=\"s:A\"><lexeme lexeme=\"LOWER_BROWS\"/></face>"
         "<gaze target=\"Camera\" start=\"s:B\"/><gaze target=\"user\" offsetDirection=\"LEFT\" start=\"s:start\"/>");
     EXPECT_THAT(marks_in(text, MarkKind::signal),
-                ElementsAre("signal=look away(One)", "signal=nod(two)", "signal=smile(two three)",
+                ElementsAre("signal=look away(One)", "signal=smile(two three)", "signal=nod(two)",
                             "signal=brow raise(two)", "signal=frown(two)", "signal=shake(three)",
                             "signal=look at(three)"));
-    const Mark& nod = text.marks[1];
+    const Mark& nod = text.marks[2];
     EXPECT_EQ(nod.times.start, (SyncPoint{1, 0}));
     EXPECT_EQ(nod.times.end, (SyncPoint{2, 0}));
     EXPECT_EQ(nod.manner[Expressivity::spatial_extent], 0.5);
