@@ -129,6 +129,7 @@ bool has_notes_of_recordings(const StudyFolder& study) {
 
 // Takes back from the finished study in the folder what the new one needs too.
 void unpack_recordings(const StudyFolder& study, const std::vector<Video>& videos) {
+    constexpr long long kMostBytes = 1LL << 40;
     if (!has_notes_of_recordings(study)) return;
     std::map<std::string, const Video*> wanted;
     for (const Video& video : videos) wanted.emplace(video.recipe, &video);
@@ -139,9 +140,8 @@ void unpack_recordings(const StudyFolder& study, const std::vector<Video>& video
         if (video == wanted.end() || !fs::is_regular_file(file)) continue;
         const fs::path copy = recording_file(study.work(), *video->second);
         if (fs::exists(copy)) continue;
-        const std::string padded = read_text(file);
-        const std::string bytes =
-            padded.substr(0, static_cast<std::size_t>(note.at("bytes").integer(0, std::ssize(padded))));
+        const auto length = static_cast<std::size_t>(note.at("bytes").integer(0, kMostBytes));
+        const std::string bytes = read_text(file).substr(0, length);
         if (sha256(bytes) != note.at("sha256").text()) continue;
         write_text(copy, bytes);
         write_json(recording_note(study.work(), *video->second), note.json());
