@@ -256,15 +256,17 @@ Finding flips_of_avatar(const Fit& fit, const PostureRig& rig, size_t side) {
     Finding finding = check_hand(turns, side == 0 ? "left hand of the avatar" : "right hand of the avatar");
     finding = in_source_frames({std::move(finding)}, fit.report).front();
     for (const Finding& known : fit.report.findings) {
-        if (known.check != Check::turn_jump || !known.part.starts_with(name_of(hand))) continue;
+        if (known.check != Check::turn_jump || known.part != name_of(hand)) continue;
         std::erase_if(finding.spans, [&](const FrameSpan& span) { return has_near(known, span); });
     }
     return finding;
 }
 
-// Points have no turns, so that those of the avatar alone can jump.
+// Points have no turns, so that those of the avatar alone can jump. Of its hands flips count, which flips_of_avatar()
+// finds: few points say how a hand is turned.
 std::vector<Finding> turns_of_points(const FitReport& report, const std::vector<Posture>& postures) {
     std::vector<Finding> findings = in_source_frames(check_turns(postures, report.fps), report);
+    std::erase_if(findings, [](const Finding& finding) { return finding.part.ends_with("_hand"); });
     for (Finding& finding : findings) finding.part += " of the avatar";
     return findings;
 }
