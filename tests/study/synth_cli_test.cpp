@@ -242,7 +242,7 @@ TEST_F(Synth, GesturesWithTheWordsOfTheSpeakerWhoIsChosen) {
     ASSERT_EQ(made.exit_code, 0) << made.err;
     const Json words = read_json(file("s.json"))["words"];
     ASSERT_EQ(words.size(), 1u);
-    EXPECT_EQ(words[0]["text"], "goodbye");
+    EXPECT_EQ(words[0]["word"], "goodbye");
 }
 
 TEST_F(Synth, TakesTheChannelOfAPersonFromASoundOfTwo) {
