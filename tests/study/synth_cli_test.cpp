@@ -271,8 +271,8 @@ TEST_F(Synth, TakesTheChannelOfAPersonFromASoundOfTwo) {
         EXPECT_EQ(made.exit_code, 0) << made.err;
         EXPECT_THAT(made.err, Not(HasSubstr("channel")));
         std::vector<double> ends;
-        for (const auto& gesture : read_json(file("s.json"))["gestures"])
-            ends.push_back(gesture["strokes"][0]["end"]);
+        const Json score = read_json(file("s.json"));
+        for (const Json& gesture : score["gestures"]) ends.push_back(gesture["strokes"][0]["end"]);
         return ends;
     };
     const double half = static_cast<double>(one.length()) / one.rate;
