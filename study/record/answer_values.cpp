@@ -142,6 +142,10 @@ Json to_shown(const Json& value, const Question& question, const std::vector<std
 }
 
 std::string fault_of_reasons(const Question& question, const Json& value, const Json& given) {
+    const auto shown = [](const Json& json) {
+        const std::string text = json.dump(-1, ' ', true);
+        return text.size() <= 60 ? text : text.substr(0, 57) + "...";
+    };
     const Reasons& asked = *question.reasons;
     const bool needed = !value.is_null() && value != asked.unless;
     if (given.is_null()) return needed ? "a reason is needed" : "";
@@ -155,11 +159,11 @@ std::string fault_of_reasons(const Question& question, const Json& value, const 
             reason.is_string() && std::ranges::find(asked.options, reason.get<std::string>(),
                                                     &QuestionOption::id) != asked.options.end();
         if (!is_one || !chosen.insert(reason.get<std::string>()).second)
-            return format("{} is none of its reasons, or is there twice", reason.dump(-1, ' ', true));
+            return format("{} is none of its reasons, or is there twice", shown(reason));
     }
     const Json other = given.value("other", Json(""));
     if (!other.is_string() || (asked.other.empty() && other != ""))
-        return format("{} is no other reason", other.dump(-1, ' ', true));
+        return format("{} is no other reason", shown(other));
     return needed && chosen.empty() && other == "" ? "a reason is needed" : "";
 }
 

@@ -26,13 +26,10 @@ bool lies_in(const Json& value, double least, double most) {
 
 const Json kNone = nullptr;
 
-// As a message may show it, whatever was sent.
-std::string shortened(const std::string& text) {
-    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
-}
-
+// A value as a message may show it: short, whatever was sent.
 std::string shown(const Json& value) {
-    return shortened(value.dump(-1, ' ', true));
+    const std::string text = value.dump(-1, ' ', true);
+    return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
 bool has_only_keys(const Json& object, const std::vector<std::string>& names) {
@@ -80,7 +77,7 @@ std::string fault_of_reason(const Question& question, const Json& values, const 
         return format("{}: {} is no other reason", question.id, shown(given["other"]));
     const std::string fault = study::fault_of_reasons(
         question, is_left_open(values, question.id) ? kNone : values.at(question.id), given);
-    return fault.empty() ? "" : format("{}: {}", question.id, shortened(fault));
+    return fault.empty() ? "" : format("{}: {}", question.id, fault);
 }
 
 std::string fault_of_reasons(const std::vector<const Question*>& asked, const Json& values,

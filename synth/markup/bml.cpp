@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "core/error.h"
 #include "core/text.h"
 #include "synth/markup/acts.h"
+#include "synth/markup/bml_lexemes.h"
 #include "synth/markup/script_builder.h"
 #include "synth/markup/script_words.h"
 #include "synth/markup/sync_points.h"
@@ -38,35 +38,6 @@ constexpr std::string_view kSpeechAttributes[] = {"id",  "start", "ready",    "s
 constexpr std::string_view kUnreadElements[] = {"constraint", "wait",        "locomotion", "emit",
                                                 "lips",       "gazeShift",   "faceFacs",   "faceShift",
                                                 "pointing",   "postureShift"};
-
-// What heads and faces are asked to do, by a part of the lexeme's name without signs: those of BML 1.0 and of GRETA
-// ("RAISE_BROWS", "faceexp=raise_eyebrows", "NOD", "head=Head_Nod"), and the emotions.
-struct Lexeme {
-    std::string_view part, signal;
-};
-constexpr Lexeme kHeadLexemes[] = {{"nod", "nod"}, {"shake", "shake"}, {"tilt", "tilt"}};
-constexpr Lexeme kFaceLexemes[] = {{"raisemouthcorner", "smile"},
-                                   {"lowermouthcorner", "sad mouth"},
-                                   {"raisebrow", "brow raise"},
-                                   {"raiseeyebrow", "brow raise"},
-                                   {"browraise", "brow raise"},
-                                   {"browsraise", "brow raise"},
-                                   {"lowerbrow", "frown"},
-                                   {"lowereyebrow", "frown"},
-                                   {"frown", "frown"},
-                                   {"smile", "smile"},
-                                   {"joy", "smile"},
-                                   {"happ", "smile"},
-                                   {"sad", "sad mouth"},
-                                   {"anger", "angry face"},
-                                   {"angry", "angry face"},
-                                   {"surpris", "surprised"},
-                                   {"fear", "afraid"},
-                                   {"afraid", "afraid"},
-                                   {"disgust", "disgusted"}};
-// Of core BML, where the lexicon has no gesture of that name.
-constexpr Lexeme kGestureLexemes[] = {
-    {"beat", "emphasis"}, {"point", "deictic"}, {"wave", "performative=greet"}};
 constexpr std::string_view kUnreadOfFunctions[] = {"ref_type", "ref_id", "prop_type", "prop_value",
                                                    "target",   "main",   "character", "duration"};
 constexpr std::string_view kRootAttributes[] = {"id", "composition", "character", "characterId", "xmlns"};
@@ -95,21 +66,6 @@ std::string text_in(const XmlNode& element) {
     std::string text;
     for (const XmlNode& child : element.children) text += child.text;
     return std::string(trim(text));
-}
-
-// "raiseeyebrows" of "Raise_EyeBrows".
-std::string letters_of(std::string_view name) {
-    std::string letters;
-    for (const char letter : to_lower(name))
-        if (letter >= 'a' && letter <= 'z') letters += letter;
-    return letters;
-}
-
-std::string_view signal_of(std::string_view name, std::span<const Lexeme> lexemes) {
-    const std::string letters = letters_of(name);
-    for (const Lexeme& lexeme : lexemes)
-        if (letters.find(lexeme.part) != std::string::npos) return lexeme.signal;
-    return "";
 }
 
 bool is_blank(const XmlNode& node) {
@@ -320,17 +276,16 @@ class BmlReader {
         }
         const bool is_head = node.name == "head";
         if (!is_head && node.name != "face" && node.name != "faceLexeme") return "";
-        const std::span<const Lexeme> lexemes =
-            is_head ? std::span<const Lexeme>(kHeadLexemes) : std::span<const Lexeme>(kFaceLexemes);
+        const auto signal_of = is_head ? signal_of_head : signal_of_face;
         for (const char* attribute : {"lexeme", "type"}) {
-            const std::string_view signal = signal_of(attribute_or_empty(node, attribute), lexemes);
+            const std::string_view signal = signal_of(attribute_or_empty(node, attribute));
             if (!signal.empty()) return signal;
         }
         for (const XmlNode& child : node.children) {
-            if (child.name == "lexeme") return signal_of(attribute_or_empty(child, "lexeme"), lexemes);
+            if (child.name == "lexeme") return signal_of(attribute_or_empty(child, "lexeme"));
             for (const XmlNode& part : child.children)
                 if (part.name == "reference" && text_in(part).find(is_head ? "head" : "faceexp") == 0)
-                    return signal_of(text_in(part), lexemes);
+                    return signal_of(text_in(part));
         }
         return "";
     }
@@ -412,8 +367,7 @@ class BmlReader {
         } else if (mark.value.empty()) {
             mark.value = mark.reference;
         } else if (mark.reference.empty()) {
-            for (const Lexeme& lexeme : kGestureLexemes)
-                if (letters_of(mark.value) == lexeme.part) mark.reference = lexeme.signal;
+            mark.reference = function_of_gesture(mark.value);
         }
         if (node.name == "gesture" && mark.value.empty())
             throw Error(

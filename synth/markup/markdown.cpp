@@ -95,8 +95,10 @@ class Reader {
 
     static std::string_view sign_of(MD_SPANTYPE type) { return type == MD_SPAN_STRONG ? "**" : "*"; }
 
+    // Of Latin letters or digits: other scripts part words without spaces.
     bool ends_in_word() const {
-        return !spoken_.text.empty() && !find_words(spoken_.text.substr(spoken_.text.size() - 1)).empty();
+        const char last = spoken_.text.empty() ? ' ' : spoken_.text.back();
+        return (last >= '0' && last <= '9') || (last >= 'A' && last <= 'Z') || (last >= 'a' && last <= 'z');
     }
 
     void end_line() {

@@ -51,6 +51,7 @@ TEST(Markdown, IsSpokenWithoutItsSigns) {
               "It is really very big, yes indeed.\n");
     EXPECT_EQ(script("# Two ways\nOne is `quick`.\n\n* First\n* Second, [slow](https://a.org/b)!\n"),
               "Two ways.\nOne is quick.\nFirst.\nSecond, slow!\n");
+    EXPECT_EQ(script("**你好**，*世界*。很*大*的"), "你好，世界。很大的\n");
     EXPECT_EQ(script("3. *Three* of them\n4. Four of them"), "3. Three of them.\n4. Four of them.\n");
     EXPECT_THAT(marked("*Yes*").notes, ElementsAre(HasSubstr("signs of Markdown are not spoken")));
     for (const char* plain :
