@@ -205,6 +205,8 @@ class HttpServer::Listener : public httplib::Server {
 
     int port() const { return port_; }
 
+    SentAway sent_away() const { return {.connections = sent_away_, .requests = slowed_down_}; }
+
     void run() { listen_after_bind(); }
 
     // The thread that listens closes its socket itself: the library must not be stopped twice, nor before it listens.
@@ -291,7 +293,8 @@ class HttpServer::Listener : public httplib::Server {
 
     // After a refusal there may be bytes of a body that nobody read: they must not become the next request. And
     // somebody who asks without a pause must not keep a thread from those who wait for one.
-    void finish_response(httplib::Response& to) const {
+    void finish_response(httplib::Response& to) {
+        slowed_down_ += to.status == 429;
         const bool is_long = starved_ && steady_milliseconds() > begun_ + kFairShare;
         if (to.status < 400 && !is_long) return;
         to.headers.erase("Keep-Alive");
@@ -316,6 +319,7 @@ class HttpServer::Listener : public httplib::Server {
                                    return options_.behind_proxy || place_;
                                }});
         if (sends_away) {
+            ++sent_away_;
             say(stream, "503 Service Unavailable\r\nRetry-After: 2");
             close(socket);
             return false;
@@ -339,6 +343,7 @@ class HttpServer::Listener : public httplib::Server {
                 case HttpStream::Head::too_slow:
                     return say(stream, "408 Request Timeout");
                 case HttpStream::Head::refused:
+                    ++slowed_down_;
                     return say(stream, "429 Too Many Requests\r\nRetry-After: 1");
                 case HttpStream::Head::arrived:
                     break;
@@ -394,6 +399,7 @@ class HttpServer::Listener : public httplib::Server {
     int port_ = 0;
     std::atomic<bool> stopping_ = false;
     std::atomic<bool> starved_ = false;
+    std::atomic<std::size_t> sent_away_ = 0, slowed_down_ = 0;
     static thread_local bool closes_;
     static thread_local std::int64_t begun_;  // the connection's conversation [ms, steady]
     static thread_local std::optional<ClientLimit::Place> place_;  // of the request that is under way
@@ -411,6 +417,10 @@ HttpServer::~HttpServer() = default;
 
 int HttpServer::port() const {
     return listener_->port();
+}
+
+HttpServer::SentAway HttpServer::sent_away() const {
+    return listener_->sent_away();
 }
 
 void HttpServer::run() {

@@ -65,6 +65,13 @@ class HttpServer {
 
     int port() const;
 
+    // What was sent away since the server began.
+    struct SentAway {
+        std::size_t connections = 0;  // 503: no thread was free and the queue was full
+        std::size_t requests = 0;     // 429: one client asked for too much
+    };
+    SentAway sent_away() const;  // from any thread
+
     void run();   // until stop(), and until what is under way has been answered
     void stop();  // from any thread
 

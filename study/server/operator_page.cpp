@@ -131,6 +131,21 @@ std::string page(const std::string& title, const std::string& head, const std::s
                   escape_html(title), head, body);
 }
 
+// Nothing if nobody was.
+std::string note_of_those_sent_away(const Json& sent_away) {
+    const auto connections = sent_away.at("connections").get<std::size_t>();
+    const auto requests = sent_away.at("requests").get<std::size_t>();
+    std::string note;
+    if (connections > 0)
+        note += format("<p>Connections asked to come again, because too many waited: {}</p>\n", connections);
+    if (requests > 0)
+        note += format(
+            "<p>Requests refused, because one client asked for too much (--connections, --requests, "
+            "--newcomers): {}</p>\n",
+            requests);
+    return note;
+}
+
 }  // namespace
 
 Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t now, std::int64_t timeout) {
@@ -184,11 +199,11 @@ std::string operator_page(const ServedStudy& study, const Json& progress) {
     all.insert(all.end(), {"withdrawn", "wanted"});
     sheet.insert(sheet.begin(), "sheet");
     std::string body = format(
-        "<h1>{}</h1>\n<p>{} · {} answers · <a href=\"/operator/answers.json\" "
+        "<h1>{}</h1>\n<p>{}, serving since {} · {} answers · <a href=\"/operator/answers.json\" "
         "download>Download all answers</a> · <a href=\"/operator/progress.json\">These numbers as "
         "JSON</a></p>\n",
         escape_html(study.pages.title), progress.at("time").get<std::string>(),
-        progress.at("answers").get<std::size_t>());
+        progress.at("serving_since").get<std::string>(), progress.at("answers").get<std::size_t>());
     if (const Json& failures = progress.at("failures"); !failures.is_null()) {
         body += format(
             "<p role=\"alert\"><strong>{} requests could not be stored or read, the last one at {}: "
@@ -201,6 +216,7 @@ std::string operator_page(const ServedStudy& study, const Json& progress) {
             format("<p role=\"alert\"><strong>{}: {}</strong></p>\n", incident.at("time").get<std::string>(),
                    escape_html(incident.at("what").get<std::string>()));
     }
+    body += note_of_those_sent_away(progress.at("sent_away"));
     body += table("Participants", all, Json::array({progress.at("participants")}));
     if (!progress.at("pairs").empty()) {
         body += table("Pairs as shown", {"left", "right", "answers"}, progress.at("pairs"));

@@ -41,8 +41,8 @@ Json to_json(const Failures& failures);
 // [{"what", "time"}]
 Json to_json(const std::vector<Incident>& incidents);
 
-// The page for the operator; it reloads itself. `progress` has the failures of the server as "failures" and its
-// incidents as "incidents".
+// The page for the operator; it reloads itself. `progress` is that of the study with what the server adds: "failures",
+// "incidents", "serving_since" (when it was started) and "sent_away" ({"connections", "requests"}).
 std::string operator_page(const ServedStudy& study, const Json& progress);
 
 // The page that asks for the token; `wrong` says that the last one was.

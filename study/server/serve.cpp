@@ -119,7 +119,8 @@ struct StudyServer::Parts {
                 .newcomers = options.newcomers,
                 .behind_proxy = options.behind_proxy,
                 .clocks = options.clocks,
-                .complain = options.complain}) {
+                .complain = options.complain,
+                .sent_away = [this] { return http.sent_away(); }}) {
         check_sheets();
         store.end_signs_of_life_at(options.clocks.unix_time());
     }

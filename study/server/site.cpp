@@ -110,6 +110,7 @@ Site::Site(const ServedStudy& study, CommitQueue& queue, SiteOptions options)
     : study_(study),
       queue_(queue),
       options_(std::move(options)),
+      since_(options_.clocks.unix_time()),
       sessions_(study, options_.timeout),
       files_(study.folder / "public"),
       index_page_(with_data(read_text(study.folder / "public" / "index.html"), open_pages(study.data))),
@@ -358,6 +359,9 @@ Json Site::progress() {
     const std::int64_t time = now();
     AnswerStore store(options_.database, Database::Use::read, study_.pages.study);
     Json progress = study_progress(study_, store, time, options_.timeout);
+    const HttpServer::SentAway sent_away = options_.sent_away();
+    progress["serving_since"] = utc_text(since_);
+    progress["sent_away"] = {{"connections", sent_away.connections}, {"requests", sent_away.requests}};
     const std::lock_guard lock(mutex_);
     progress["failures"] = to_json(failures_);
     std::vector<Incident> incidents = incidents_;

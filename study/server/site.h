@@ -30,6 +30,7 @@ struct SiteOptions {
     bool behind_proxy = false;  // clients are distinguished by X-Forwarded-For
     Clocks clocks{};
     std::function<void(const std::string&)> complain = [](const std::string&) {};  // to the operator
+    std::function<HttpServer::SentAway()> sent_away;
 };
 
 // Any thread may ask.
@@ -67,6 +68,7 @@ class Site {
     const ServedStudy& study_;
     CommitQueue& queue_;
     SiteOptions options_;
+    std::int64_t since_;  // ms since 1970
     ParticipantSessions sessions_;
     PublicFiles files_;
     std::string index_page_;  // with what all may see of pages.json

@@ -101,6 +101,8 @@ TEST_F(Bounded, TurnsAwayWhoComesWhenTheQueueIsFull) {
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->status, 503);
     EXPECT_EQ(answer->headers.at("retry-after"), "2");
+    EXPECT_EQ(server_->sent_away().connections, 1u);
+    EXPECT_EQ(server_->sent_away().requests, 0u);
 }
 
 TEST_F(Bounded, TakesNoEndlessHead) {
@@ -137,6 +139,7 @@ TEST_F(Bounded, LetsOneClientHoldSoManyRequests) {
             continue;
         }
         EXPECT_EQ(refused->headers.at("retry-after"), "1");
+        EXPECT_EQ(server_->sent_away().requests, 1u);
         EXPECT_EQ(RawClient(server_->port()).get("/")->body, "here") << "another client";
         head.send("TP/1.1\r\nHost: t\r\n\r\n");
         EXPECT_EQ(head.read()->body, "here");

@@ -365,14 +365,17 @@ TEST_F(Served, RefusesAnswersToAnotherBuildOfTheStudy) {
 TEST_F(Served, SlowsDownAClientThatAsksTooOften) {
     ServeOptions slow = options();
     slow.requests = 1;  // a second, ten at once
+    slow.behind_proxy = true;
     start(slow);
-    RawClient client(server_->port());
     int refused = 0;
     for (int i = 0; i < 15; ++i) {
-        const auto answer = RawClient(server_->port()).get("/style.css");
-        refused += answer->status == 429 && answer->headers.at("retry-after") == "1";
+        const RawAnswer answer = get("/style.css", "X-Forwarded-For: 10.0.0.1\r\n");
+        refused += answer.status == 429 && answer.headers.at("retry-after") == "1";
     }
     EXPECT_GE(refused, 3);
+    const Json sent_away = get("/operator/progress.json", bearer()).json()["sent_away"];
+    EXPECT_EQ(sent_away, Json({{"connections", 0}, {"requests", refused}}));
+    EXPECT_THAT(get("/operator", bearer()).body, HasSubstr(format("--newcomers): {}</p>", refused)));
 }
 
 TEST_F(Served, DistinguishesClientsBehindAProxy) {
@@ -455,7 +458,10 @@ TEST_F(Served, ShowsTheOperatorHowFarTheStudyIs) {
     EXPECT_EQ(progress["pairs"], Json::parse(R"([{"left": "baseline", "right": "ours", "answers": 1},
         {"left": "ours", "right": "baseline", "answers": 1}])"));
     EXPECT_EQ(progress["last"].size(), 2u);
+    EXPECT_EQ(progress["sent_away"], Json::parse(R"({"connections": 0, "requests": 0})"));
     const std::string page = get("/operator", bearer()).body;
+    EXPECT_THAT(page, HasSubstr(", serving since 20"));
+    EXPECT_THAT(page, Not(HasSubstr("Requests refused")));
     EXPECT_THAT(page, HasSubstr("<td>baseline · ours</td>"));
     EXPECT_THAT(page, HasSubstr("<td>1</td><td>baseline</td><td>1</td>")) << "places for people begin with 1";
     EXPECT_THAT(page, Not(HasSubstr("<td>0</td><td>baseline</td>")));
