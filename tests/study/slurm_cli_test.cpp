@@ -34,7 +34,7 @@ using Words = std::vector<std::string>;
 class SlurmCli : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (!testing::has_slurm()) GTEST_SKIP() << "there is no Slurm here; install Debian's slurm-wlm";
+        if (const std::string why = testing::why_no_slurm(); !why.empty()) GTEST_SKIP() << why;
         fs::copy(source_dir() / "assets/samples", folder_.path(), fs::copy_options::recursive);
         write_plan({320, 180}, 3);
         cluster_.emplace();

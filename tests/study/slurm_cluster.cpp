@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <netdb.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -41,11 +42,17 @@ bool is_watcher(pid_t process) {
 
 }  // namespace
 
-bool has_slurm() {
+std::string why_no_slurm() {
     for (const char* program : {"/usr/sbin/slurmctld", "/usr/sbin/slurmd", "/usr/bin/sbatch"}) {
-        if (!fs::exists(program)) return false;
+        if (!fs::exists(program)) return "there is no Slurm here; install Debian's slurm-wlm";
     }
-    return true;
+    // As Slurm does, even for 127.0.0.1.
+    const addrinfo as_slurm = {.ai_flags = AI_ADDRCONFIG, .ai_family = AF_INET};
+    addrinfo* found = nullptr;
+    if (::getaddrinfo("127.0.0.1", nullptr, &as_slurm, &found) != 0)
+        return "Slurm finds no node on a machine that has no address but loopback";
+    ::freeaddrinfo(found);
+    return "";
 }
 
 SlurmCluster::SlurmCluster() {

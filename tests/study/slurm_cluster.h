@@ -10,8 +10,8 @@
 
 namespace chironomia::testing {
 
-// Whether slurmctld, slurmd and sbatch are installed.
-bool has_slurm();
+// What keeps a Slurm from running on this machine; "" if nothing does.
+std::string why_no_slurm();
 
 class SlurmCluster {
   public:
