@@ -126,17 +126,34 @@ WithinTests compare_all(const std::vector<Means>& cells) {
             .anova = repeated_anova(rows)};
 }
 
+// Those who rated several cells, where most rated one: the cells are groups of different people, and somebody who came
+// back to another one belongs to none of them. Half is ours.
+std::set<std::size_t> strays_of(const std::vector<Means>& cells) {
+    std::map<std::size_t, std::size_t> rated;
+    for (const Means& cell : cells) {
+        for (const auto& [participant, value] : cell) ++rated[participant];
+    }
+    std::set<std::size_t> several;
+    for (const auto& [participant, count] : rated) {
+        if (count > 1) several.insert(participant);
+    }
+    return 2 * several.size() < rated.size() ? several : std::set<std::size_t>{};
+}
+
 ScoreResult compute_question(const Dataset& data, std::size_t question) {
     ScoreResult result{.question = question, .range = range_of(data.questions[question], data, question)};
     std::vector<Means> means;
     std::vector<std::vector<double>> groups;
     const std::vector<std::size_t> cells = cells_of(data, question);
-    for (const std::size_t cell : cells) {
-        means.push_back(means_of(data, question, cell));
-        groups.push_back(values_of(means.back()));
-        result.cells.push_back({.cell = cell,
+    for (const std::size_t cell : cells) means.push_back(means_of(data, question, cell));
+    const std::set<std::size_t> strays = strays_of(means);
+    result.left_out = strays.size();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        std::erase_if(means[i], [&](const auto& mean) { return strays.contains(mean.first); });
+        groups.push_back(values_of(means[i]));
+        result.cells.push_back({.cell = cells[i],
                                 .participants = summarize(groups.back()),
-                                .answers = summarize(answers_of(data, question, cell)),
+                                .answers = summarize(answers_of(data, question, cells[i])),
                                 .density = gaussian_density(groups.back(), result.range, kDensityPoints)});
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -8,8 +8,9 @@
 namespace chironomia::study::analysis {
 
 // Of each question its cells (a condition, or of a triplet a pair of them), all pairs of cells with p corrected by Holm
-// for the number of pairs of that question, and tests of all cells together: within participants where any participant
-// rated more than one cell, else between them. Of ranked options there are none, as their ranks add up to the same.
+// for the number of pairs of that question, and tests of all cells together: within participants where at least half of
+// them rated more than one cell, else between those who rated one. Of ranked options there are none, as their ranks add
+// up to the same.
 std::vector<ScoreResult> compute_scores(const Dataset& data);
 
 // Every two questions of the same range within each cell, as the thesis compares its factors; not two items of scales

@@ -213,11 +213,13 @@ Table anova_table(const TableSource& of) {
         .id = "anova",
         .title = "Analysis of variance of independent groups",
         .note =
-            "One way, of the scores of participants, each of whom rated one condition. Takes participants as "
-            "independent and their scores as normal and as varying alike in all groups",
+            "One way, of the scores of participants who rated one condition; who rated several, where most rated one, "
+            "is left out of all tests of the question. Takes participants as independent and their scores as normal "
+            "and as varying alike in all groups",
         .columns = {{"question", "question"},
                     {"groups", "groups", Show::whole},
                     {"n", "n", Show::whole},
+                    {"left_out", "left out", Show::whole},
                     {"f", "F", Show::two},
                     {"df_between", "df between", Show::whole},
                     {"df_within", "df within", Show::whole},
@@ -227,8 +229,8 @@ Table anova_table(const TableSource& of) {
     for (const ScoreResult& result : of.results.scores) {
         if (!result.anova) continue;
         const Anova& anova = *result.anova;
-        table.rows.push_back({of.question(result.question), result.cells.size(), anova.n, anova.f,
-                              anova.df_between, anova.df_within, anova.p, anova.eta_squared,
+        table.rows.push_back({of.question(result.question), result.cells.size(), anova.n, result.left_out,
+                              anova.f, anova.df_between, anova.df_within, anova.p, anova.eta_squared,
                               anova.mean_square_within});
     }
     return table;

@@ -209,6 +209,7 @@ TEST(AnalyseCli, TestsGroupsWhereEachRaterSawOneCondition) {
     const Json lenient = read_json(folder / "out/analysis.json")["lenient"];
     const Json anova = lenient["anova"].at(0);
     EXPECT_EQ(anova["groups"], 3);
+    EXPECT_EQ(anova["left_out"], 0);
     EXPECT_NEAR(anova["f"].get<double>(), 2, 1e-9);
     EXPECT_EQ(anova["df_between"], 2);
     EXPECT_EQ(anova["df_within"], 3);
@@ -221,6 +222,20 @@ TEST(AnalyseCli, TestsGroupsWhereEachRaterSawOneCondition) {
     EXPECT_EQ(lenient["fisher_lsd"].size(), 3u);
     for (const char* within : {"friedman", "repeated_anova", "paired_t", "wilcoxon"})
         EXPECT_FALSE(lenient.contains(within)) << within;
+}
+
+// The same, with somebody who came back and saw a second condition.
+TEST(AnalyseCli, LeavesOutWhoSawTwoConditionsWhereTheOthersSawOne) {
+    const TemporaryFolder folder;
+    const std::vector<std::vector<int>> rows = {{1, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 6, 0},
+                                                {0, 0, 5}, {0, 0, 7}, {7, 1, 0}};
+    ASSERT_EQ(analyse_ratings(folder, rows).exit_code, 0);
+    const Json lenient = read_json(folder / "out/analysis.json")["lenient"];
+    EXPECT_EQ(lenient["anova"].at(0)["n"], 6);
+    EXPECT_EQ(lenient["anova"].at(0)["left_out"], 1);
+    EXPECT_NEAR(lenient["anova"].at(0)["f"].get<double>(), 2, 1e-9);
+    EXPECT_EQ(lenient["welch_t"].size(), 3u);
+    EXPECT_FALSE(lenient.contains("paired_t"));
 }
 
 using Answers = std::vector<std::vector<std::vector<int>>>;
