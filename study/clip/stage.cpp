@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 #include "core/render/camera.h"
@@ -210,14 +211,31 @@ Sighting find_person(const Stage& stage, std::size_t person) {
     return {.staged = stage.views.front(), .world_from_figure = {}};
 }
 
-// Of what is no person the middle counts. After its animation the last box is held.
+// Whether the middle of the picture shows a place in the box, as it does where a scene shows a part of a model.
+bool shows_part_of(const Bounds& box, const Mat4& clip) {
+    Vec2 low(std::numeric_limits<float>::max()), high(-low);
+    for (int corner = 0; corner < 8; ++corner) {
+        const auto side = [&](int axis) {
+            return (corner >> axis & 1) != 0 ? box.high[axis] : box.low[axis];
+        };
+        const Vec4 place = clip * Vec4(side(0), side(1), side(2), 1);
+        if (place.w <= 0) continue;
+        low = glm::min(low, Vec2(place) / place.w);
+        high = glm::max(high, Vec2(place) / place.w);
+    }
+    return low.x < 0 && low.y < 0 && high.x > 0 && high.y > 0;
+}
+
+// Of what is no person the middle counts, unless a part of it fills the picture. After its animation the last box is
+// held.
 FramesOutside boxes_outside(std::span<const Bounds> boxes, const Mat4& clip, std::size_t first,
                             std::size_t frames) {
     FramesOutside outside{.of = frames};
     for (std::size_t t = first; t < first + frames; ++t) {
         const Bounds& box = boxes[std::min(t, boxes.size() - 1)];
         const Vec4 place = clip * Vec4((box.low + box.high) * 0.5f, 1);
-        outside.figure += place.w <= 0 || std::abs(place.x) > place.w || std::abs(place.y) > place.w;
+        const bool is_outside = place.w <= 0 || std::abs(place.x) > place.w || std::abs(place.y) > place.w;
+        outside.figure += is_outside && !shows_part_of(box, clip);
     }
     return outside;
 }

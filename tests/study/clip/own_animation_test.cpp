@@ -296,8 +296,10 @@ TEST(OwnAnimationCli, WarnsOfAModelThatLeavesTheScene) {
 
 TEST(OwnAnimationCli, ShowsABundledAvatarStill) {
     const TemporaryFolder folder;
-    const Outcome outcome = run_chironomia(render("mannequin", folder / "frames/%05d.png"));
+    const Outcome outcome =
+        run_chironomia(render("mannequin", folder / "frames/%05d.png", {"--scene", "head"}));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "") << "a part of it fills the picture";
     EXPECT_TRUE(fs::exists(folder / "frames/00000.png"));
     EXPECT_FALSE(fs::exists(folder / "frames/00001.png"));
 }
