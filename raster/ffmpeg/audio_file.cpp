@@ -1,9 +1,11 @@
 #include "raster/ffmpeg/audio_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <span>
 #include <string_view>
 
@@ -103,6 +105,25 @@ AVStream& sound_of(AVFormatContext& container, const fs::path& file) {
     return *stream;
 }
 
+// Whether it is a WAV that a program wrote into a pipe, where its size cannot be filled in afterwards: FFmpeg leaves
+// 0xffffffff, espeak-ng 0x7ffff000, others 0.
+bool has_open_end(const fs::path& file) {
+    constexpr std::uint32_t kLeastOpen = 0x7ffff000;
+    std::ifstream stream(file, std::ios::binary);
+    std::array<unsigned char, 12> head{};  // of the file, then of each chunk
+    const auto read = [&](std::streamsize bytes) {
+        return bool(stream.read(reinterpret_cast<char*>(head.data()), bytes));
+    };
+    if (!read(12) || std::memcmp(head.data(), "RIFF", 4) != 0) return false;
+    while (read(8)) {
+        std::uint32_t size = 0;
+        for (size_t i = 0; i < 4; ++i) size |= std::uint32_t(head[4 + i]) << (8 * i);
+        if (std::memcmp(head.data(), "data", 4) == 0) return size == 0 || size >= kLeastOpen;
+        stream.seekg(static_cast<std::streamoff>(size) + size % 2, std::ios::cur);
+    }
+    return false;
+}
+
 class SoundReader {
   public:
     //   begin, end   what is kept [s]
@@ -110,6 +131,7 @@ class SoundReader {
         : file_(file), container_(open_media(file, "sound")), begin_(begin), end_(end) {
         stream_ = &sound_of(*container_, file);
         decoder_ = open_decoder(*stream_, file);
+        open_end_ = has_open_end(file);
     }
 
     AudioPart read() {
@@ -119,7 +141,7 @@ class SoundReader {
             if (code == AVERROR_EOF) break;
             if (code < 0) fail(code);
             if (packet->stream_index == stream_->index) {
-                if (packet->flags & AV_PKT_FLAG_CORRUPT) fail(AVERROR_INVALIDDATA);
+                if (packet->flags & AV_PKT_FLAG_CORRUPT && !open_end_) fail(AVERROR_INVALIDDATA);
                 delivered_ += packet->duration;
                 decode(packet.get());
             }
@@ -209,7 +231,7 @@ class SoundReader {
         const std::string_view kind = container_->iformat->name;
         if (kind == "ogg") expect_last_page(file_, seconds());
         if (container_->duration_estimation_method == AVFMT_DURATION_FROM_BITRATE) return;
-        if (kind == "ogg" || stream_->duration == AV_NOPTS_VALUE) return;
+        if (kind == "ogg" || open_end_ || stream_->duration == AV_NOPTS_VALUE) return;
         const double tick = av_q2d(stream_->time_base);
         const double promised = static_cast<double>(stream_->duration) * tick;
         // The promise of an MP3 counts what the decoder has left out at both ends.
@@ -244,6 +266,7 @@ class SoundReader {
     AVStream* stream_ = nullptr;
     Owned<AVCodecContext> decoder_;
     Owned<AVFrame> frame_ = make_av_frame();
+    bool open_end_ = false;       // it ends where the file ends
     double begin_, end_;          // of the part [s]
     Audio audio_;                 // the part
     std::vector<float> decoded_;  // of the last frame
@@ -277,20 +300,26 @@ std::optional<std::string> unstated_delay(const fs::path& file) {
     const Owned<AVFormatContext> container = open_media(file, "sound");
     const AVStream& sound = sound_of(*container, file);
     const std::string_view kind = container->iformat->name;
-    if (kind != "mp3" && kind != "aac") return std::nullopt;
+    const bool is_mp3 = sound.codecpar->codec_id == AV_CODEC_ID_MP3;
+    const bool is_bare = kind == "mp3" || kind == "aac";
+    const bool is_wrapped = kind == "avi" || kind.starts_with("matroska");
+    if (!is_mp3 && sound.codecpar->codec_id != AV_CODEC_ID_AAC) return std::nullopt;
+    if (!is_bare && (!is_wrapped || find_stream(*container, AVMEDIA_TYPE_VIDEO))) return std::nullopt;
     const Owned<AVPacket> packet = make_av_packet();
     do {
         av_packet_unref(packet.get());
         if (av_read_frame(container.get(), packet.get()) < 0) return std::nullopt;
     } while (packet->stream_index != sound.index);
     if (av_packet_get_side_data(packet.get(), AV_PKT_DATA_SKIP_SAMPLES, nullptr)) return std::nullopt;
-    const bool is_mp3 = kind == "mp3";
+    const std::string what =
+        is_wrapped ? format("{} in {} does", is_mp3 ? "MP3" : "AAC", kind == "avi" ? "AVI" : "Matroska")
+        : is_mp3   ? "an MP3 without a Xing header does"
+                   : "bare AAC does";
     return format(
         "{}: {} not say how much its encoder put before the sound, which is heard late by that: by {:.0f} ms "
         "if {} wrote it; give the sound as WAV, FLAC or {}",
-        file.string(), is_mp3 ? "an MP3 without a Xing header does" : "bare AAC does",
-        1000 * (is_mp3 ? kMp3 : kAac) / sound.codecpar->sample_rate, is_mp3 ? "LAME" : "FFmpeg",
-        is_mp3 ? "MP3 with that header" : "M4A");
+        file.string(), what, 1000 * (is_mp3 ? kMp3 : kAac) / sound.codecpar->sample_rate,
+        is_mp3 ? "LAME" : "FFmpeg", is_mp3 ? "MP3 with a Xing header" : "M4A");
 }
 
 void check_audio(const fs::path& file) {

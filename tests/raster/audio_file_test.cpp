@@ -16,6 +16,7 @@ namespace chironomia {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 using testing::output_of;
 using testing::quoted;
 using testing::refusal_of;
@@ -105,7 +106,7 @@ TEST(ReadAudio, SaysHowLateASoundIsWhoseFileDoesNotSayIt) {
             format(
                 "{}: an MP3 without a Xing header does not say how much its encoder put before the sound, "
                 "which is heard late by that: by {} ms if LAME wrote it; give the sound as WAV, FLAC or MP3 "
-                "with that header",
+                "with a Xing header",
                 mp3.string(), rate == 44100 ? 25 : 69));
         const fs::path aac = converted(folder, click, "bare.aac", "-c:a aac -b:a 128k");
         EXPECT_NEAR(lateness(aac), 1024, 8);
@@ -115,6 +116,10 @@ TEST(ReadAudio, SaysHowLateASoundIsWhoseFileDoesNotSayIt) {
                 "{}: bare AAC does not say how much its encoder put before the sound, which is heard late by "
                 "that: by {} ms if FFmpeg wrote it; give the sound as WAV, FLAC or M4A",
                 aac.string(), rate == 44100 ? 23 : 64));
+        const fs::path wrapped = converted(folder, click, "wrapped.mkv", "-c:a aac -b:a 128k");
+        EXPECT_NEAR(lateness(wrapped), 1024, 48);  // times in Matroska are whole milliseconds
+        EXPECT_THAT(unstated_delay(wrapped).value_or(""),
+                    HasSubstr("wrapped.mkv: AAC in Matroska does not say how"));
         for (const auto& [name, options] :
              {std::pair{"whole.mp3", "-c:a libmp3lame -b:a 128k"},
               std::pair{"whole.m4a", "-c:a aac -b:a 128k"}, std::pair{"whole.flac", "-c:a flac"}}) {
@@ -131,6 +136,22 @@ TEST(ReadAudio, TakesAnyNumberOfChannels) {
     const Audio nine = tone(0.1, 8000, 9);
     write_wav(folder / "nine.wav", nine);
     EXPECT_EQ(read_audio(folder / "nine.wav").samples, nine.samples);
+}
+
+// As programs leave them that write into a pipe.
+TEST(ReadAudio, TakesAWavWithoutItsSize) {
+    const TemporaryFolder folder;
+    const Audio sound = tone(0.2, 16000);
+    const std::string whole = to_wav(sound);
+    for (const std::string size :
+         {std::string(4, '\xff'), std::string("\0\xf0\xff\x7f", 4), std::string(4, '\0')}) {
+        std::string open = whole;
+        open.replace(whole.find("data") + 4, 4, size);
+        write_text(folder / "open.wav", open);
+        EXPECT_EQ(read_audio(folder / "open.wav").samples, sound.samples);
+        write_text(folder / "open.wav", open.substr(0, whole.find("data") + 8));
+        EXPECT_THAT(refusal_of([&] { read_audio(folder / "open.wav"); }), HasSubstr("open.wav: "));
+    }
 }
 
 TEST(ReadAudio, RefusesWhatIsNoSoundFile) {
