@@ -165,7 +165,8 @@ CompanionFiles PerformerMotions::companions() const {
 PerformerMotions read_motions(const Performer& performer) {
     PerformerMotions motions;
     if (!performer.motion.empty()) motions.body = read_motion(performer.motion, performer.hints);
-    if (performer.face) motions.face = read_motion(*performer.face);
+    if (performer.face)
+        motions.face = read_motion(*performer.face, {.fps = performer.hints.fps, .fps_where_missing = true});
     if (motions.face && !motions.face->face) {
         throw Error(format("{}: this motion holds no face; give a file of action units, head turns or gaze",
                            performer.face->string()));

@@ -63,6 +63,18 @@ TEST(FaceCli, AFaceAloneMovesAStandingAvatar) {
     EXPECT_NE(sha256_of_file(folder / "0/7.png"), sha256_of_file(folder / "5/7.png"));
 }
 
+TEST(FaceCli, TakesTheRateOfAFaceWithoutTimes) {
+    const TemporaryFolder folder;
+    write_text(folder / "f.csv", "AU12,AU6\n1,0\n2,0\n3,1\n4,1\n");
+    std::vector<std::string> words =
+        render(folder / "%d.png", {"--face", (folder / "f.csv").string(), "--avatar", arkit_avatar()});
+    EXPECT_THAT(run_chironomia(words).err, HasSubstr("set the rate with --motion-fps"));
+    words.insert(words.end(), {"--motion-fps", "20"});
+    const Outcome outcome = run_chironomia(words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(folder / "5.png")) << "0.2 s at 30 frames a second";
+}
+
 TEST(FaceCli, SaysWhatAnAvatarCannotShowAndWhatIsHeld) {
     const TemporaryFolder folder;
     const fs::path face = write_face(folder / "f.csv", 3);

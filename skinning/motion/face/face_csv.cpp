@@ -11,6 +11,7 @@
 #include "skinning/motion/face/arkit_csv.h"
 #include "skinning/motion/face/face_rows.h"
 #include "skinning/motion/face/openface_csv.h"
+#include "skinning/motion/face/pyfeat_csv.h"
 
 namespace chironomia {
 namespace {
@@ -114,13 +115,15 @@ std::string header_line(const FaceTrack& face) {
 
 bool is_face_table(std::string_view text, const std::string& where) {
     const std::vector<std::string> columns = csv_columns(text, where);
-    return looks_like_openface(columns) || looks_like_arkit(columns) || looks_like_ours(columns);
+    return looks_like_openface(columns) || looks_like_arkit(columns) || looks_like_pyfeat(columns) ||
+           looks_like_ours(columns);
 }
 
 Motion read_face_table(std::string_view text, const std::string& where, std::optional<double> fps) {
     const std::vector<std::string> columns = csv_columns(text, where);
     if (looks_like_openface(columns)) return face_of_openface(text, where, fps);
     if (looks_like_arkit(columns)) return face_of_arkit(text, where, fps);
+    if (looks_like_pyfeat(columns)) return face_of_pyfeat(text, where, fps);
     const CsvTable table =
         parse_csv_table(text, where, {.keeps = [](std::string_view column) {
                             return is_ours(column) || is_time_column(column) || column == "confidence";

@@ -1,4 +1,4 @@
-// Faces as tables: those of OpenFace, those of ARKit, and our own.
+// Faces as tables: those of OpenFace, ARKit and Py-Feat, and our own.
 //
 // Ours has a row per frame: `time` [s]; a column per channel named as in core/body/face.h ("AU12", "AU45_L"),
 // 0..5; head_qx, head_qy, head_qz, head_qw; gaze_left_yaw, gaze_left_pitch, gaze_right_yaw,

@@ -52,6 +52,29 @@ void expect_near(const Vec3& a, const Vec3& b, float limit = 1e-6f) {
                                      << ' ' << b.z;
 }
 
+using PyFeatFile = FaceFile;
+
+TEST_F(PyFeatFile, ShowsLikelihoodsAsIntensities) {
+    const std::string table =
+        "FaceRectX,FaceScore,Pitch,Roll,Yaw,AU01,AU11,AU12,AU43,happiness,input,frame\n"
+        "10,0.99,5,1,-3,0.2,0.4,1,0,1,v.mp4,0\n10,,,,,,,,,,v.mp4,1\n10,0.9,5,1,-3,0.4,0.4,0.5,0.6,1,v.mp4,2\n";
+    const Motion motion = read(table, 25);
+    const FaceTrack& face = motion.face.value();
+    EXPECT_EQ(motion.frames, 3u);
+    EXPECT_EQ(face.channels,
+              (std::vector<FaceChannel>{{1, FaceSide::both}, {12, FaceSide::both}, {45, FaceSide::both}}));
+    EXPECT_EQ(face.intensities, (std::vector<float>{1, 5, 0, 1.5f, 3.75f, 1.5f, 2, 2.5f, 3}));
+    EXPECT_EQ(face.confidence, (std::vector<float>{1, 0, 1}));
+    EXPECT_THAT(motion.notes,
+                Contains("Py-Feat CSV: 3 action units, how likely each is shown as its intensity"));
+    EXPECT_THAT(motion.notes, Contains("units that are not shown, left out: AU11"));
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("head: left out")));
+    EXPECT_EQ(refusal(table),
+              "a.csv: there is no column \"timestamp\" or \"time\"; set the rate with --motion-fps");
+    EXPECT_THAT(refusal("FaceScore,AU12,frame\n0.9,2,0\n0.9,1,1\n", 25),
+                HasSubstr("a.csv:2: column \"AU12\": 2 does not lie between 0 and 1"));
+}
+
 using OpenFaceFile = FaceFile;
 
 TEST_F(OpenFaceFile, GivesAFaceAlone) {
