@@ -15,6 +15,7 @@ namespace {
 constexpr std::array<double, 28> kWholeRates = {8,   10,  12,  12.5, 15,  16,  18,  20, 24, 25,
                                                 30,  40,  48,  50,   60,  72,  75,  80, 90, 96,
                                                 100, 120, 125, 144,  150, 200, 240, 250};
+constexpr double kFinest = 0.01;
 constexpr std::array<double, 4> kVideoRates = {24000.0 / 1001, 30000.0 / 1001, 60000.0 / 1001,
                                                120000.0 / 1001};
 
@@ -55,9 +56,10 @@ double rate_of_frame_time(std::string_view text) {
         if (const auto rate = nearest_rate(kWholeRates, seconds, tolerance)) return *rate;
         if (const auto rate = nearest_rate(kVideoRates, seconds, tolerance)) return *rate;
     }
+    // Two digits fit too many whole rates: "0.03" is 29 to 40. One in a hundred of the time is ours.
     const double whole = std::round(1 / seconds);
-    if (const auto rate = nearest_rate(std::array{whole}, seconds, step / 2)) return *rate;
-    return 1 / seconds;
+    if (step > kFinest * seconds) return 1 / seconds;
+    return nearest_rate(std::array{whole}, seconds, step / 2).value_or(1 / seconds);
 }
 
 double rate_of_step(double seconds) {

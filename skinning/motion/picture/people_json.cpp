@@ -196,6 +196,9 @@ std::vector<SeenFrame> in_order_of_numbers(std::vector<SeenFrame> frames, const 
     std::vector<SeenFrame> ordered(count);
     for (SeenFrame& frame : frames) ordered[*frame.number - first] = std::move(frame);
     if (count > frames.size()) data.notes.push_back(format("{} frames are left out", count - frames.size()));
+    const bool has_times = std::any_of(ordered.begin(), ordered.end(),
+                                       [](const SeenFrame& frame) { return frame.time.has_value(); });
+    if (!has_times) note_first_number(data, static_cast<double>(first));
     return ordered;
 }
 

@@ -170,17 +170,19 @@ void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers
         at.push_back(numbers[t] - numbers[0]);
     }
     if (at.size() < 2) return;
-    if (numbers[0] > 1) {
-        data.first_number = numbers[0];
-        data.notes.push_back(
-            format("time: the first frame is number {:.0f}, which is second 0 here", numbers[0]));
-    }
+    note_first_number(data, numbers[0]);
     if (std::ranges::min(steps_of(at)) > 2)
         throw Error(
             format("{}frame {}, where {} is expected; more than half of the frames are left out, number "
                    "those that are there one by one and give their rate",
                    where(1), numbers[1], numbers[0] + 1));
     if (at.back() >= static_cast<double>(at.size())) lay_out(data, at, where);
+}
+
+void note_first_number(KeypointData& data, double first) {
+    if (first <= 1) return;
+    data.first_number = first;
+    data.notes.push_back(format("time: the first frame is number {:.0f}, which is second 0 here", first));
 }
 
 }  // namespace chironomia

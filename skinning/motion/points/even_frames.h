@@ -27,4 +27,8 @@ void even_out_times(KeypointData& data, std::vector<double> times, const FramePl
 // nothing. Throws Error if they are not whole, do not advance, or advance by more than two everywhere.
 void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers, const FramePlaces& where);
 
+// Keeps that the first frame of the file has this number, if that is above 1, so that the motion begins later than a
+// sound of the whole recording; a note says so.
+void note_first_number(KeypointData& data, double first);
+
 }  // namespace chironomia

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/text.h"
+
 namespace chironomia {
 namespace {
 
@@ -31,6 +33,10 @@ TEST(RateOfFrameTime, AcceptsTimesThatWereCut) {
 
 TEST(RateOfFrameTime, KeepsRatesThatAreNotUsual) {
     EXPECT_DOUBLE_EQ(rate_of_frame_time("0.0285714"), 35);
+    EXPECT_DOUBLE_EQ(rate_of_frame_time("0.0154"), 65);
+    for (const double seconds : {0.03, 0.06, 0.015, 0.045})
+        EXPECT_DOUBLE_EQ(rate_of_frame_time(format("{}", seconds)), 1 / seconds)
+            << "two digits fit many rates";
     EXPECT_DOUBLE_EQ(rate_of_frame_time("0.0271828"), 1 / 0.0271828);
     EXPECT_DOUBLE_EQ(rate_of_frame_time("2.5"), 0.4);
 }

@@ -56,6 +56,15 @@ class PeopleJson : public ::testing::Test {
     testing::TemporaryFolder folder_;
 };
 
+// Nobody was seen before: a motion that begins later than the sound of the whole recording.
+TEST_F(PeopleJson, KeepsWhenTheFirstPictureWas) {
+    const Motion motion = read("[" + result("\"50.jpg\"", 100) + ", " + result("\"51.jpg\"", 110) + "]");
+    EXPECT_EQ(motion.frames, 2u);
+    EXPECT_DOUBLE_EQ(motion.first_time, 2);
+    EXPECT_THAT(motion.notes, Contains("time: the first frame is number 50, which is second 0 here"));
+    EXPECT_EQ(read("[" + result("1", 100) + ", " + result("2", 110) + "]").first_time, 0) << "numbers from 1";
+}
+
 TEST_F(PeopleJson, ReadsResultsAsAlphaPoseWritesThem) {
     const Motion motion = read("[" + result("\"0.jpg\"", 100) + ", " + result("\"1.jpg\"", 110, 17, 3) + "]");
     ASSERT_TRUE(motion.picture);
