@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "core/error.h"
@@ -26,13 +27,50 @@ class ElanReader {
     TimedLabels read(std::string_view speaker) {
         for (const XmlNode& node : root_.children)
             if (node.name == "TIME_ORDER") read_times(node);
+        const MediaOrigin origin = read_origin();
+        for (auto& [slot, time] : times_) time += origin.seconds;
         std::vector<LabelTier> tiers;
         for (const XmlNode& node : root_.children)
             if (node.name == "TIER") tiers.push_back(read_tier(node));
-        return labels_of_tiers(tiers, std::string(source_.name), speaker);
+        TimedLabels labels = labels_of_tiers(tiers, std::string(source_.name), speaker);
+        labels.notes.insert(labels.notes.end(), origin.notes.begin(), origin.notes.end());
+        return labels;
     }
 
   private:
+    // Where the media begin in the time of the annotations.
+    struct MediaOrigin {
+        double seconds = 0;
+        std::vector<std::string> notes;
+    };
+
+    // Media that were synchronised have offsets; ELAN plays a medium from its TIME_ORIGIN on [ms] at time 0.
+    MediaOrigin read_origin() const {
+        std::set<double> origins;
+        for (const XmlNode& header : root_.children) {
+            if (header.name != "HEADER") continue;
+            for (const XmlNode& medium : header.children) {
+                if (medium.name != "MEDIA_DESCRIPTOR") continue;
+                const std::string written = find_attribute(medium, "TIME_ORIGIN").value_or("0");
+                const auto milliseconds = parse_number(written);
+                if (!milliseconds) refuse(medium, format("the TIME_ORIGIN {} is no number", written));
+                origins.insert(*milliseconds / 1000);
+            }
+        }
+        if (origins.size() > 1) {
+            return {.notes = {format(
+                        "{}: its media begin at {} s and {} s; words have the times of ELAN, which are "
+                        "those of a medium that begins at 0 s",
+                        source_.name, *origins.begin(), *origins.rbegin())}};
+        }
+        const double origin = origins.empty() ? 0 : *origins.begin();
+        if (origin == 0) return {};
+        return {.seconds = origin,
+                .notes = {
+                    format("{}: its medium begins at {} s (TIME_ORIGIN), so words come that much later in it",
+                           source_.name, origin)}};
+    }
+
     [[noreturn]] void refuse(const XmlNode& node, const std::string& what) const {
         throw Error(format("{}: {}; save it again with ELAN", Place{node, source_}.to_text(), what));
     }

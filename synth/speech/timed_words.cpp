@@ -83,6 +83,7 @@ TimedLabels read_labels(const fs::path& file, double duration, std::string_view 
     const std::string name = file.string();
     if (is_textgrid(trim(text))) return read_textgrid(text, name, speaker);
     if (is_elan(trim(text))) return read_elan(text, name, speaker);
+    if (const auto tiers = find_tiers(text, name)) return labels_of_tiers(*tiers, name, speaker);
     TimedLabels labels = read_labels(file, text, duration);
     keep_speaker(labels.words, speaker, name);
     return labels;

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/files/json.h"
+#include "core/files/json_text.h"
 #include "core/text.h"
 #include "synth/speech/word_text.h"
 
@@ -31,6 +32,8 @@ class Reader {
             read_alternatives(json_, "");
         } else if (has_list(json_, "results") && has_any(json_["results"], "alternatives")) {
             read_alternatives(json_["results"], "results");
+        } else if (json_.is_object() && has_list(json_.value("results", Json()), "channels")) {
+            read_alternatives(json_["results"]["channels"], "results.channels");  // Deepgram's
         } else if (has_any(json_, "words")) {
             read_segments(json_, "");
         } else if (json_.is_array()) {
@@ -260,6 +263,29 @@ class Reader {
 
 TimedLabels read_word_json(const fs::path& file, double duration) {
     return Reader(file, duration).read();
+}
+
+std::optional<std::vector<LabelTier>> find_tiers(std::string_view text, const std::string& file) {
+    if (!trim(text).starts_with('{') || text.find("\"tiers\"") == std::string_view::npos) return std::nullopt;
+    const Json json = parse_json(std::string(text), file);
+    if (!json.contains("tiers") || !json["tiers"].is_object()) return std::nullopt;
+    std::vector<LabelTier> tiers;
+    for (const auto& [name, tier] : json["tiers"].items()) {
+        if (!tier.is_object() || !tier.contains("entries") || !tier["entries"].is_array()) continue;
+        tiers.push_back({.name = name, .has_intervals = true, .labels = {}});
+        for (const Json& entry : tier["entries"]) {
+            const std::string where = format("tiers.{}.entries[{}]", name, tiers.back().labels.size());
+            if (!entry.is_array() || entry.size() != 3 || !entry[0].is_number() || !entry[1].is_number() ||
+                !entry[2].is_string()) {
+                throw Error(format(
+                    "{}: {}: is {}; a start, an end and a word are expected, such as [0.1, 0.4, \"hello\"]",
+                    file, where, entry.dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 60)));
+            }
+            tiers.back().labels.push_back(
+                {.where = where, .text = entry[2], .start = entry[0], .end = entry[1]});
+        }
+    }
+    return tiers;
 }
 
 }  // namespace chironomia

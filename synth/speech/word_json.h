@@ -2,7 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
+#include "synth/speech/label_tiers.h"
 #include "synth/speech/timed_label.h"
 
 namespace chironomia {
@@ -16,5 +21,9 @@ namespace chironomia {
 // `duration`, that of the sound [s]. Throws Error with the place ("segments[0].words[2]") if something is missing or of
 // another kind.
 TimedLabels read_word_json(const std::filesystem::path& file, double duration);
+
+// The tiers of the Montreal Forced Aligner's own JSON, {"tiers": {"words": {"entries": [[start, end, "word"]]}}};
+// nothing if it is another file. Throws Error with the place if an entry is of another kind.
+std::optional<std::vector<LabelTier>> find_tiers(std::string_view text, const std::string& file);
 
 }  // namespace chironomia

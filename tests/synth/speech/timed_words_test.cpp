@@ -14,6 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -245,6 +246,23 @@ TEST_F(TimedWordsOf, ReadAnnotationsOfElan) {
                 ElementsAre("hello 0.5-0.9", "world 1.5-2"));
 }
 
+TEST_F(TimedWordsOf, ComeLaterWhereElanSynchronisedTheMedium) {
+    const auto with_media = [](const std::string& media) {
+        std::string text = elan("words");
+        return text.replace(text.find("</HEADER>"), 0, media);
+    };
+    const std::string moved = "<MEDIA_DESCRIPTOR MEDIA_URL=\"file:///a.wav\" TIME_ORIGIN=\"1000\"/>";
+    const TimedWords timed = read(with_media(moved));
+    EXPECT_THAT(with_times(timed.words), ElementsAre("hello 1.5-2", "world 2.5-3"));
+    EXPECT_THAT(timed.notes,
+                Contains(HasSubstr("its medium begins at 1 s (TIME_ORIGIN), so words come that much later")));
+    const TimedWords both = read(with_media(moved + "<MEDIA_DESCRIPTOR MEDIA_URL=\"file:///a.mp4\"/>"));
+    EXPECT_THAT(with_times(both.words), ElementsAre("hello 0.5-1", "world 1.5-2"));
+    EXPECT_THAT(both.notes, Contains(HasSubstr("its media begin at 0 s and 1 s")));
+    EXPECT_THAT(refusal(with_media("<MEDIA_DESCRIPTOR TIME_ORIGIN=\"x\"/>")),
+                HasSubstr("the TIME_ORIGIN x is no number"));
+}
+
 TEST_F(TimedWordsOf, AreRefusedIfAnnotationsOfElanAreBroken) {
     EXPECT_EQ(
         refusal(elan("text")),
@@ -420,6 +438,10 @@ TEST_F(TimedWordsOf, ReadJsonAsRecognisersWriteIt) {
          R"([{"alternatives": [{"transcript": "hello world", "words": [
               {"word": "hello", "start_time": "0.500s", "end_time": "0.900s"},
               {"word": "world", "start_time": "1s", "end_time": "1.500s"}]}]}])",
+         R"({"start": 0, "end": 3, "tiers": {"phones": {"type": "interval", "entries": []}, "words": {"type": "interval",
+              "entries": [[0, 0.5, ""], [0.5, 0.9, "hello"], [1, 1.5, "world"]]}}})",
+         R"({"metadata": {"channels": 1}, "results": {"channels": [{"alternatives": [{"transcript": "hello world", "words": [
+              {"word": "hello", "start": 0.5, "end": 0.9}, {"word": "world", "start": 1, "end": 1.5}]}]}]}})",
          R"({"results": [{"alternatives": [{"words": [{"word": "hello", "startTime": "0.5s", "endTime": "0.9s"}]}, {}]},
               {"alternatives": [{"words": [{"word": "world", "startTime": "1s", "endTime": "1.5s"}]}]}]})"})
         EXPECT_EQ(with_times(read(json).words), kHelloWorld) << json;
