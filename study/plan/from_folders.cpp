@@ -217,20 +217,37 @@ std::vector<Segment> read_segments(const fs::path& file) {
 // How long motions last; each is read once.
 class Lengths {
   public:
-    double of(const fs::path& motion) {
-        const auto [found, is_new] = seconds_.emplace(motion, 0);
-        if (is_new) found->second = duration(read_motion(motion));
-        return found->second;
+    struct Length {
+        double seconds = 0;
+        bool lacks_rate = false;  // it is at the rate that was given
+    };
+
+    explicit Lengths(std::optional<double> fps) : fps_(fps) {}
+
+    const Length& of(const fs::path& motion) {
+        const auto found = lengths_.find(motion);
+        return found != lengths_.end() ? found->second
+                                       : lengths_.emplace(motion, measure(motion)).first->second;
     }
 
   private:
-    std::map<fs::path, double> seconds_;
+    Length measure(const fs::path& motion) const {
+        try {
+            return {.seconds = duration(read_motion(motion))};
+        } catch (const Error&) {
+            if (!fps_) throw;
+            return {.seconds = duration(read_motion(motion, {.fps = fps_})), .lacks_rate = true};
+        }
+    }
+
+    std::optional<double> fps_;
+    std::map<fs::path, Length> lengths_;
 };
 
 // What the folders have for the segments of a table.
 class Matching {
   public:
-    explicit Matching(const FoldersJob& job) : job_(job) {
+    explicit Matching(const FoldersJob& job) : job_(job), lengths_(job.fps) {
         for (const ConditionFolder& condition : job.conditions)
             motions_.push_back(list_by_name(condition.folder, endings_of_motions()));
         if (!job.audio.empty()) sounds_ = list_by_name(job.audio, endings_of_sounds());
@@ -252,6 +269,7 @@ class Matching {
             const auto motion = motion_of(motions_[i], segment, name);
             is_whole = is_whole && motion;
             if (motion) clip["motion"][name] = path_of(*motion);
+            if (motion && lengths_.of(*motion).lacks_rate) hints_[name]["fps"] = *job_.fps;
         }
         return is_whole ? std::optional(std::move(clip)) : std::nullopt;
     }
@@ -264,6 +282,9 @@ class Matching {
         if (!job_.audio.empty()) report_unused(sounds_, job_.audio);
         return std::move(faults_);
     }
+
+    // Of conditions whose motions have no rate; null if all have one.
+    const Json& hints() const { return hints_; }
 
     std::vector<std::string> notes() const {
         std::vector<std::string> notes;
@@ -364,7 +385,7 @@ class Matching {
 
     std::string fault_of(const fs::path& motion, const Segment& segment) {
         try {
-            const double seconds = lengths_.of(motion);
+            const double seconds = lengths_.of(motion).seconds;
             if (seconds + kTolerance >= segment.end) return "";
             return format("{} lasts {:.2f} s, and the segment ends at {:.2f} s", motion.filename().string(),
                           seconds, segment.end);
@@ -390,6 +411,7 @@ class Matching {
     std::map<fs::path, double> sound_seconds_;
     std::map<fs::path, Beyond> begun_after_, ended_after_;  // by the sound
     Lengths lengths_;
+    Json hints_;
     std::vector<std::string> faults_;
 };
 
@@ -412,6 +434,7 @@ FoldersPlan plan_from_folders(const FoldersJob& job) {
     }
     made.plan["preset"] = job.preset;
     made.plan["conditions"] = std::move(names);
+    if (!matching.hints().is_null()) made.plan["hints"] = matching.hints();
     made.plan["clips"] = std::move(clips);
     return made;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct FoldersJob {
     std::filesystem::path audio;        // empty: the clips have no sound
     std::filesystem::path segments;     // CSV
     std::string preset;                 // the protocol
+    std::optional<double> fps{};        // of motions without a rate; the plan's "hints" have it then
     std::filesystem::path plan_folder;  // what paths in the plan are relative to
 };
 
@@ -38,9 +40,9 @@ struct FoldersPlan {
 // second, and after the last comes the first again. A speaker that the table does not name is read from names such as
 // "2_scott_0_1_1". The id of a clip is the name with the first and the last frame at 30 frames a second, as in GENEA's
 // votes. A participant sees at most as many pages as there are clips, whatever the protocol says. Each motion is read,
-// to see whether it lasts to the end of its segments. A sound may end before: it has one note with the worst of its
-// segments. Throws Error, with file and line, if a folder or the table cannot be read, a row of the table is wrong or
-// makes the same clip as another, or no clip is left.
+// to see whether it lasts to the end of its segments; a condition whose motions have no rate gets a hint with `fps`. A
+// sound may end before: it has one note with the worst of its segments. Throws Error, with file and line, if a folder or
+// the table cannot be read, a row of the table is wrong or makes the same clip as another, or no clip is left.
 FoldersPlan plan_from_folders(const FoldersJob& job);
 
 }  // namespace chironomia::study

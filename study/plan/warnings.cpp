@@ -53,6 +53,20 @@ void warn_of_fewer_pages(const Plan& plan, std::vector<std::string>& warnings) {
                plan.file.string(), *plan.participants.preset_pages, plan.preset));
 }
 
+// One value for all videos of a page says nothing of their conditions. Presets are as their papers asked.
+void warn_of_scores_of_pages(const Plan& plan, std::vector<std::string>& warnings) {
+    if (plan.layout == Layout::single || plan.presentation == Presentation::one_video || !plan.preset.empty())
+        return;
+    for (const Question& question : plan.questions) {
+        const bool is_score = question.kind == QuestionKind::rating || question.kind == QuestionKind::slider;
+        if (!is_score || question.each || plan.right_answers.contains(question.id)) continue;
+        warnings.push_back(format(
+            "{}: questions: \"{}\" is asked once of all videos of a page, so no condition gets a score; if each "
+            "video is to be rated, give the question \"each\": true",
+            plan.file.string(), question.id));
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> plan_warnings(const Plan& plan) {
@@ -60,6 +74,7 @@ std::vector<std::string> plan_warnings(const Plan& plan) {
     warn_of_same_motions(plan, warnings);
     warn_of_english_texts(plan, warnings);
     warn_of_fewer_pages(plan, warnings);
+    warn_of_scores_of_pages(plan, warnings);
     return warnings;
 }
 

@@ -519,12 +519,25 @@ TEST_F(StudyPlan, WarnsOfTextsInEnglishAndOfConditionsThatAreTheSame) {
                                    {"instructions", "Bitte."},
                                    {"texts", {{"next", "Weiter"}, {"pages.other", "{n} Seiten"}}}});
     EXPECT_THAT(plan_warnings(german),
-                ElementsAre(HasSubstr("texts of the page are left in English, such as \"agree\"")));
+                ElementsAre(HasSubstr("texts of the page are left in English, such as \"agree\""),
+                            HasSubstr("\"natural\" is asked once of all videos")));
     Json clips = sample_plan()["clips"];
     clips[1]["motion"]["baseline"] = clips[1]["motion"]["ours"];
     EXPECT_THAT(plan_warnings(read_with({{"clips", clips}})),
                 ElementsAre(HasSubstr(
                     "\"ours\" and \"baseline\" show the same in 1 of 2 clips, such as ours/c2.bvh")));
+}
+
+TEST_F(StudyPlan, WarnsOfScoresThatBelongToNoCondition) {
+    const Json slider = {{"id", "hl"}, {"kind", "slider"}, {"text", "How human-like?"}};
+    Json each = slider;
+    each["each"] = true;
+    EXPECT_THAT(plan_warnings(read_with({{"questions", {slider}}})),
+                ElementsAre(HasSubstr(
+                    "questions: \"hl\" is asked once of all videos of a page, so no condition gets a "
+                    "score; if each video is to be rated, give the question \"each\": true")));
+    EXPECT_THAT(plan_warnings(read_with({{"questions", {each}}})), IsEmpty());
+    EXPECT_THAT(plan_warnings(read_with({{"questions", {slider}}, {"layout", "single"}})), IsEmpty());
 }
 
 // "é" as one letter in the folder, and as e with an accent in the plan.

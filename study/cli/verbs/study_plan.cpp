@@ -91,9 +91,13 @@ void add_folders(CLI::App& verb, CLI::Option& plan, StudyPlanCommand& command) {
         verb.add_option("--preset", folders.preset, "The protocol, as study presets lists them")
             ->type_name("NAME");
     CLI::Option* audio = verb.add_option("--audio", folders.audio, "Folder of the sounds")->type_name("DIR");
+    CLI::Option* fps =
+        verb.add_option("--motion-fps", folders.fps, "Frames per second of motions that carry no rate")
+            ->type_name("R")
+            ->check(CLI::PositiveNumber);
     CLI::Option* out = verb.add_option("--out", command.out, "The new plan [stdout]")->type_name("PLAN.json");
     from->needs(segments)->needs(preset);
-    for (CLI::Option* option : {from, segments, preset, audio, out}) {
+    for (CLI::Option* option : {from, segments, preset, audio, fps, out}) {
         option->group(group);
         if (option != from) option->needs(from);
     }

@@ -82,6 +82,19 @@ TEST_F(PlanFromFolders, HasAClipForEachSegment) {
               Json({{"ours", "ours/2_scott_0_1_1.npz"}, {"baseline", "base/2_scott_0_1_1.npz"}}));
 }
 
+TEST_F(PlanFromFolders, HintsTheRateOfMotionsThatCarryNone) {
+    for (const auto& entry : fs::directory_iterator(folder_ / "base")) {
+        testing::write_npz(entry.path(), {{"poses", {90, 165}, std::vector<double>(90 * 165, 0.0)},
+                                          {"trans", {90, 3}, std::vector<double>(90 * 3, 0.0)}});
+    }
+    const Outcome lacking = plan();
+    EXPECT_EQ(lacking.exit_code, 3);
+    EXPECT_THAT(lacking.err, HasSubstr("the file does not give its rate; set it with --motion-fps"));
+    const Outcome made = plan({"--motion-fps", "15"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(Json::parse(made.out)["hints"], Json::parse(R"({"baseline": {"fps": 15.0}})"));
+}
+
 TEST_F(PlanFromFolders, KeepsAPlanThatWasChanged) {
     for (int i = 0; i < 2; ++i) EXPECT_EQ(plan({"--out", in("plan.json")}).exit_code, 0);
     Json changed = read_json(folder_ / "plan.json");
