@@ -67,12 +67,12 @@ TEST(FaceCli, TakesTheRateOfAFaceWithoutTimes) {
     const TemporaryFolder folder;
     write_text(folder / "f.csv", "AU12,AU6\n1,0\n2,0\n3,1\n4,1\n");
     std::vector<std::string> words =
-        render(folder / "%d.png", {"--face", (folder / "f.csv").string(), "--avatar", arkit_avatar()});
+        render(folder / "frames/%d.png", {"--face", (folder / "f.csv").string(), "--avatar", arkit_avatar()});
     EXPECT_THAT(run_chironomia(words).err, HasSubstr("set the rate with --motion-fps"));
     words.insert(words.end(), {"--motion-fps", "20"});
     const Outcome outcome = run_chironomia(words);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(fs::exists(folder / "5.png")) << "0.2 s at 30 frames a second";
+    EXPECT_TRUE(fs::exists(folder / "frames/5.png")) << "0.2 s at 30 frames a second";
 }
 
 TEST(FaceCli, SaysWhatAnAvatarCannotShowAndWhatIsHeld) {
