@@ -74,7 +74,10 @@ class Maker:
         self.surfaces, self.materials, self.images = [], [], []
         self.hidden = np.zeros(len(self.points), bool)
 
-    def material(self, name, roughness, colour=(1, 1, 1), image=None, alpha=None, double=False, anisotropy=0.0, specular=1.0):
+    def material(
+        self, name, roughness, colour=(1, 1, 1), image=None, alpha=None, double=False, anisotropy=0.0, specular=1.0,
+        normals=None,
+    ):
         pbr = {"metallicFactor": 0.0, "roughnessFactor": roughness}
         if image:
             self.images.append((name, *image))
@@ -82,6 +85,9 @@ class Maker:
         else:
             pbr["baseColorFactor"] = [round(float(c) ** 2.2, 4) for c in colour] + [1.0]
         entry = {"name": name, "pbrMetallicRoughness": pbr}
+        if normals:
+            self.images.append((f"{name} normals", *normals))
+            entry["normalTexture"] = {"index": len(self.images) - 1}
         if alpha == "blend":
             entry["alphaMode"] = "BLEND"
         elif alpha:
@@ -154,9 +160,10 @@ class Maker:
         texture = paint.skin(mix, self.person)
         head = self.head()
         near = np.linalg.norm(self.points[self.body].mean(1) - head.eyes, axis=1) < 0.25
-        places = surface.places_in_texture(
-            self.points, self.body[near], self.package.base.uvs, self.body_uv[near], paint.SKIN_SIZE
+        face = surface.build(
+            self.points, self.normals, self.body[near], self.package.base.uvs, self.body_uv[near], self.weights
         )
+        places = surface.in_texture(face.points, face.uvs, face.triangles, paint.SKIN_SIZE)
         style, colour = hair.STYLES[self.person.hair], self.person.colours["hair"]
         self.material("skin", 0.55, image=paint.jpeg(hair.painted_scalp(texture, head, style, colour, places, 31), 86))
 
@@ -219,14 +226,21 @@ class Maker:
         shadow = paint.resized(shadow[..., :1], 1024)[..., 0]
         luma = paint.resized((diffuse[..., :3] @ paint.LUMA)[..., None], 1024)[..., 0]
         points = fitting.fitted(proxy, self.points)
-        shirt = points[mesh.quads[upper]]
-        places = surface.places_in_texture(points, mesh.quads[upper], mesh.uvs, mesh.uv_quads[upper], 1024)
-        draped = folds.light_on(places, dict(zip(rig.NAMES, self.joints)), shirt[..., 1].min())
+        shirt = surface.build(
+            points, surface.normals_of(points, mesh.quads), mesh.quads[upper], mesh.uvs, mesh.uv_quads[upper],
+            fitting.carried_weights(proxy, self.weights),
+        )
+        frames = np.concatenate([shirt.points, shirt.normals, surface.tangents_of(shirt)], 1)
+        openness, bumps = folds.drape(
+            surface.in_texture(frames, shirt.uvs, shirt.triangles, 1024),
+            dict(zip(rig.NAMES, self.joints)), shirt.points[:, 1].min(),
+        )
         for name, kept, weave, seed in (("shirt", upper, False, 21), ("trousers", ~upper, True, 22)):
-            light = draped if name == "shirt" else np.clip(luma / np.median(luma), 0.7, 1.3) ** 0.5
+            light = openness if name == "shirt" else np.clip(luma / np.median(luma), 0.7, 1.3) ** 0.5
             self.add_proxy(name, proxy, keep=kept, wanted=None if name == "shirt" else 1250)
             texture = paint.cloth(shadow, light, self.person.colours[name], weave, seed)
-            self.material(name, 0.88, image=paint.jpeg(texture, 82), double=True)
+            normals = paint.jpeg(bumps, 90, full_colour=True) if name == "shirt" else None
+            self.material(name, 0.88, image=paint.jpeg(texture, 82), double=True, normals=normals)
 
     def covered(self, proxy, margin):
         """(V) whether a vertex of the skin lies under a cloth, further than `margin` [m] inside its rim."""

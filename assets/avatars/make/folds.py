@@ -1,12 +1,15 @@
-"""Folds of a shirt as light and dark: rings at the elbows, rays from the armpits, drapes above the hem.
+"""Folds of a shirt as a normal map: rings at the elbows, rays from the armpits, drapes above the hem.
 
-The folds are heights over the cloth, as a function of the place; what is seen of them is their slope towards the light.
+The folds are heights over the cloth, as a function of the place; what is seen of them is their slope, and a little of
+the dark in their furrows, which is the same wherever the light is.
 Heights, lengths and reaches are ours, chosen by looking at the shirts at `upper` and `head`.
 """
 
 import numpy as np
+from scipy.ndimage import distance_transform_edt
 
-LIGHT = np.array([0.35, 0.80, 0.48])  # from above, from the figure's left and from the front
+# [1/m] of depth that a furrow darkens, and the least that is left; ours, so that folds still read where light is flat.
+FURROW, FURROW_DARKEST = 60, 0.85
 DELTA = 0.0015  # [m] between the places whose heights are compared
 
 
@@ -24,9 +27,15 @@ def _wander(places, seed):
     return total / 6
 
 
+def _ridges(phase):
+    """Folds of height about 1 with narrow ridges and wide furrows, as cloth has that is pushed together."""
+    return (np.exp(1.3 * np.sin(phase)) - 1.46) / 2
+
+
 def heights(places, joints, hem):
     """(N) [m] of the cloth at places (N, 3) [m]; `joints` by name, `hem` [m] the lower edge."""
     noise, slow = _wander(places, 51), _wander(places * 0.5, 52)
+    patches = np.clip(0.55 + 1.6 * slow, 0.1, 1)  # folds come in groups
     total = np.zeros(len(places))
     for side in ("left", "right"):
         shoulder, elbow = joints[f"{side}_upper_arm"], joints[f"{side}_lower_arm"]
@@ -35,26 +44,37 @@ def heights(places, joints, hem):
         off = places - elbow - beyond[:, None] * along
         near = _bump(np.linalg.norm(off, axis=1), 0.09)
         inner = 0.6 + 0.4 * np.tanh(off[:, 2] / 0.02)
-        total += 0.0016 * near * inner * _bump(beyond, 0.07) * np.sin(2 * np.pi * beyond / 0.026 + 2.5 * noise + 1.5 * slow)
+        rings = _ridges(2 * np.pi * (beyond + 0.35 * off[:, 2]) / 0.036 + 2.5 * noise + 1.5 * slow)
+        total += 0.0032 * near * inner * _bump(beyond, 0.08) * rings
         outward = np.array([np.sign(shoulder[0]), 0, 0])
         away = places - (shoulder + np.array([0, -0.055, 0]) + 0.06 * outward)
         angle = np.arctan2(away[:, 1], -away @ outward)
         reach = np.linalg.norm(away, axis=1)
-        fan = _bump(angle + 0.25, 0.45) * _bump(reach - 0.125, 0.045) * np.clip((reach - 0.05) / 0.05, 0, 1)
-        total += 0.0016 * fan * (0.6 + 0.4 * slow) * np.sin(20 * angle + 2.0 * noise)
+        fan = _bump(angle + 0.25, 0.55) * _bump(reach - 0.125, 0.060) * np.clip((reach - 0.05) / 0.05, 0, 1)
+        total += 0.0034 * fan * (0.7 + 0.3 * slow) * _ridges(14 * angle + 2.0 * noise)
     over = places[:, 1] - hem
-    middle = _bump(over - 0.11, 0.09)
-    slanted = places[:, 1] + 0.30 * np.abs(places[:, 0]) * np.tanh(6 * (0.4 + slow))
-    total += 0.0018 * middle * (0.55 + 0.45 * slow) * np.sin(2 * np.pi * slanted / 0.042 + 3.0 * noise)
-    return total + 0.0012 * slow * np.clip(over / 0.05, 0, 1)
+    middle = _bump(over - 0.12, 0.10)
+    slanted = places[:, 1] + 0.45 * np.abs(places[:, 0]) * np.tanh(6 * (0.4 + slow))
+    total += 0.0034 * middle * patches * _ridges(2 * np.pi * slanted / 0.058 + 2.2 * noise)
+    return total + 0.0015 * slow * np.clip(over / 0.05, 0, 1)
 
 
-def light_on(places, joints, hem):
-    """(H, W) light and dark about 1 of the texels at `places` (H, W, 3) [m]; 1 where nothing is."""
-    light = LIGHT / np.linalg.norm(LIGHT)
-    known = np.isfinite(places[..., 0])
-    there = places[known]
-    slope = (heights(there - DELTA * light, joints, hem) - heights(there + DELTA * light, joints, hem)) / (2 * DELTA)
-    shade = np.ones(places.shape[:2])
-    shade[known] = np.clip(1 + 0.55 * slope, 0.72, 1.18)
-    return shade
+def drape(frames, joints, hem):
+    """(H, W) how open the cloth lies at each texel, 1 but in furrows, and (H, W, 3) its normal map, +Y up.
+
+    `frames` (H, W, 10): place [m], normal, tangent and handedness of each texel; nan where nothing is."""
+    known = np.isfinite(frames[..., 0])
+    places, normals, tangents = (frames[known][:, k : k + 3] for k in (0, 3, 6))
+    upward = np.cross(normals, tangents) * np.sign(frames[known][:, 9:])
+    slopes = [
+        (heights(places + DELTA * way, joints, hem) - heights(places - DELTA * way, joints, hem)) / (2 * DELTA)
+        for way in (tangents, upward)
+    ]
+    bumps = np.stack([-slopes[0], -slopes[1], np.ones(len(places))], 1)
+    openness = np.ones(known.shape)
+    openness[known] = np.clip(1 + FURROW * heights(places, joints, hem), FURROW_DARKEST, 1)
+    map_ = np.empty((*known.shape, 3))
+    map_[known] = 0.5 + 0.5 * bumps / np.linalg.norm(bumps, axis=1, keepdims=True)
+    # Beyond the edges of the cloth its texels go on, so that no seam shows where the map is filtered.
+    nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)
+    return openness, map_[tuple(nearest)]

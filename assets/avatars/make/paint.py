@@ -16,10 +16,11 @@ def png(rgba):
     return ("image/png", data.getvalue())
 
 
-def jpeg(rgb, quality=88):
+def jpeg(rgb, quality=88, full_colour=False):
+    """`full_colour`: red and blue as sharp as the rest, for numbers that are no colours."""
     data = io.BytesIO()
     bytes_ = np.round(np.clip(rgb[..., :3], 0, 1) * 255).astype(np.uint8)
-    Image.fromarray(bytes_).save(data, "JPEG", quality=quality, optimize=True)
+    Image.fromarray(bytes_).save(data, "JPEG", quality=quality, optimize=True, subsampling=0 if full_colour else -1)
     return ("image/jpeg", data.getvalue())
 
 

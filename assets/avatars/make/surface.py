@@ -137,20 +137,37 @@ def thinned(surface, wanted, price=None):
     )
 
 
-def places_in_texture(points, quads, uvs, uv_quads, size):
-    """(size, size, 3) [m] the place of each texel of a mesh; nan where nothing is."""
-    places = np.full((size, size, 3), np.nan)
-    corners = uvs[uv_quads] * [size, -size] + [0, size]
-    for a, b, c in ((0, 1, 2), (0, 2, 3)):
-        for texel, place in zip(corners[:, [a, b, c]], points[quads[:, [a, b, c]]]):
-            low, high = np.floor(texel.min(0)).astype(int) - 1, np.ceil(texel.max(0)).astype(int) + 2
-            (left, top), (right, bottom) = np.clip(low, 0, size), np.clip(high, 0, size)
-            sides = np.stack([texel[1] - texel[0], texel[2] - texel[0]], 1)
-            if abs(np.linalg.det(sides)) < 1e-9:
-                continue
-            y, x = np.mgrid[top:bottom, left:right] + 0.5
-            u, v = np.linalg.solve(sides, np.stack([x.ravel() - texel[0, 0], y.ravel() - texel[0, 1]]))
-            inside = ((u > -0.1) & (v > -0.1) & (u + v < 1.1)).reshape(y.shape)
-            spot = place[0] + u[:, None] * (place[1] - place[0]) + v[:, None] * (place[2] - place[0])
-            places[top:bottom, left:right][inside] = spot.reshape(*y.shape, 3)[inside]
-    return places
+def tangents_of(surface):
+    """(V, 4) tangents of a Surface as renderers derive them: sums over the triangles of a vertex.
+
+    Lengyel, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", Terathon Software, 2001."""
+    a, b, c = (surface.triangles[:, k] for k in range(3))
+    ab, ac = surface.points[b] - surface.points[a], surface.points[c] - surface.points[a]
+    ab_uv, ac_uv = surface.uvs[b] - surface.uvs[a], surface.uvs[c] - surface.uvs[a]
+    area = ab_uv[:, :1] * ac_uv[:, 1:] - ac_uv[:, :1] * ab_uv[:, 1:]
+    area = np.where(np.abs(area) < 1e-12, np.inf, area)
+    along_u, along_v = np.zeros_like(surface.points), np.zeros_like(surface.points)
+    for corner in (a, b, c):
+        np.add.at(along_u, corner, (ab * ac_uv[:, 1:] - ac * ab_uv[:, 1:]) / area)
+        np.add.at(along_v, corner, (ac * ab_uv[:, :1] - ab * ac_uv[:, :1]) / area)
+    along_u -= (along_u * surface.normals).sum(1, keepdims=True) * surface.normals
+    tangents = along_u / np.maximum(np.linalg.norm(along_u, axis=1, keepdims=True), 1e-12)
+    down = (np.cross(surface.normals, tangents) * along_v).sum(1, keepdims=True) > 0
+    return np.concatenate([tangents, np.where(down, -1.0, 1.0)], 1)
+
+
+def in_texture(values, uvs, triangles, size):
+    """(size, size, C) values (V, C) of vertices spread over their texels; nan where nothing is. `uvs` v down."""
+    texels = np.full((size, size, values.shape[1]), np.nan)
+    for texel, value in zip(uvs[triangles] * size, values[triangles]):
+        low, high = np.floor(texel.min(0)).astype(int) - 1, np.ceil(texel.max(0)).astype(int) + 2
+        (left, top), (right, bottom) = np.clip(low, 0, size), np.clip(high, 0, size)
+        sides = np.stack([texel[1] - texel[0], texel[2] - texel[0]], 1)
+        if abs(np.linalg.det(sides)) < 1e-9:
+            continue
+        y, x = np.mgrid[top:bottom, left:right] + 0.5
+        u, v = np.linalg.solve(sides, np.stack([x.ravel() - texel[0, 0], y.ravel() - texel[0, 1]]))
+        inside = ((u > -0.1) & (v > -0.1) & (u + v < 1.1)).reshape(y.shape)
+        spot = value[0] + u[:, None] * (value[1] - value[0]) + v[:, None] * (value[2] - value[0])
+        texels[top:bottom, left:right][inside] = spot.reshape(*y.shape, -1)[inside]
+    return texels
