@@ -6,7 +6,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from . import eyes, face, fitting, folds, glb, hair, paint, rig, surface
+from . import eyes, face, fitting, folds, glb, hair, lids, paint, rig, surface
 from . import person as persons
 
 
@@ -134,14 +134,19 @@ class Maker:
         self.surfaces.append((name, surface.thinned(part, wanted) if wanted else part))
 
     def add_eyes(self):
+        balls = []
         for side, s in (("left", "L"), ("right", "R")):
             joint = rig.NAMES.index(f"{side}_eye")
             base = self.package.base
             helper = np.unique(base.quads[base.groups == base.group_names.index(f"helper-{s.lower()}-eye")])
             spread = self.points[helper]
             radius = (spread[:, 0].max() - spread[:, 0].min()) / 2
-            self.surfaces.append(("eyes", eyes.eyeball(self.joints[joint], radius, joint, len(rig.NAMES))))
+            balls.append((self.joints[joint], radius))
+            self.surfaces.append(("eyes", eyes.eyeball(*balls[-1], joint, len(rig.NAMES))))
         self.material("eyes", 0.06, image=paint.jpeg(eyes.texture(512, self.person.colours["iris"], 7), 92))
+        self.surfaces += lids.strips(self.points, surface.triangles_of(self.body), self.weights, self.moves, balls)
+        self.material("eye_shadow", 1.0, alpha="blend", specular=0)
+        self.material("eye_wet", 0.1, alpha="blend")
 
     def add_skin(self):
         seen = ~self.hidden[self.body].all(1)

@@ -99,7 +99,9 @@ def _primitive(glb, surface, material, strongest):
     if surface.uvs is not None:
         attributes["TEXCOORD_0"] = glb.accessor(surface.uvs, "VEC2", FLOAT, "<f4", False, 34962)
     if surface.colours is not None:
-        attributes["COLOR_0"] = glb.accessor(np.round(surface.colours * 255), "VEC3", UBYTE, "u1", False, 34962, True)
+        attributes["COLOR_0"] = glb.accessor(
+            np.round(surface.colours * 255), f"VEC{surface.colours.shape[1]}", UBYTE, "u1", False, 34962, True
+        )
     assert len(surface.points) < 65536
     primitive = {
         "attributes": attributes,

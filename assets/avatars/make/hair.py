@@ -16,9 +16,12 @@ STEP = 0.004  # [m] of tracing
 COLUMNS = 8  # bundles of strands in the texture
 HELD = 0.06  # [m] that hair of weight 1 goes as it is combed before it hangs
 TURN, RISE = 0.007, 0.003  # [m] of growth in which hair turns to where it is combed, and rises to its layer
+EAR_CLEAR = 0.007  # [m] from an ear: there hair ends that is held down
+EAR_LEAST = 0.3  # of its length; hair of which no more would be left is left out
 RUFFLE = 0.2  # of the normals of the layer under the strips, which would shine like a cap
 SUNK = 0.002  # [m] under the skin, where that layer meets the hairline
 ROUGHNESS, ANISOTROPY = 0.4, 0.6  # of strands: light lies in a band round the head, wide across them and narrow along them
+BUN_ROLL = 0.6  # [rad] of the strips of a knot
 UNDER = 0.42  # of the height of the outermost hair: where the closed layer under it lies
 
 # The edge of the hair: [rad] around the head from the front, [m] above the eyes.
@@ -42,16 +45,20 @@ class Style:
     hug: float = 1.0  # how much it is held down to the head, 0: it may stand off
     lift: float = 0.3  # of hair at its root, against how it is combed
     wave: tuple = (0.0, 0.1)  # [m] aside, and [m] a wave is long
+    roll: float = 0.6  # [rad] at most, that a strip is turned about its length
     bun: float = 0.0  # [m] radius of a knot at the back
     hairline: float = 0.0  # [m] higher than others'
+    bare: float = 0.0  # [m] above the hairline that only the scalp is dark, so that strips combed back end softly
 
 
 STYLES = {
-    "short": Style("whorl", 1100, (0.040, 0.022, 0.018), 0.009, 0.012, weight=0.2, lift=0.5),
-    "receding": Style("whorl", 1100, (0.030, 0.018, 0.016), 0.006, 0.011, weight=0.2, lift=0.4, hairline=0.022),
+    "short": Style("whorl", 1700, (0.040, 0.022, 0.018), 0.009, 0.012, weight=0.2, lift=0.5),
+    "receding": Style("whorl", 1550, (0.030, 0.018, 0.016), 0.006, 0.011, weight=0.2, lift=0.4, hairline=0.022),
     "swept": Style("parted", 544, (0.105, 0.036, 0.020), 0.012, 0.012, parting=0.034, weight=0.5, lift=0.5, wave=(0.0015, 0.05)),
-    "bob": Style("parted", 448, (0.235, 0.160, 0.110), 0.011, 0.015, parting=0.022, weight=0.9, hug=0.2, lift=0.3, wave=(0.002, 0.09)),
-    "bun": Style("back", 384, (0.190, 0.150, 0.120), 0.006, 0.013, weight=0.0, lift=0.1, bun=0.034),
+    "bob": Style("parted", 438, (0.235, 0.160, 0.110), 0.011, 0.015, parting=0.022, weight=0.9, hug=0.2, lift=0.3, wave=(0.002, 0.09)),
+    "bun": Style(
+        "back", 370, (0.190, 0.150, 0.120), 0.006, 0.013, weight=0.0, lift=0.0, bun=0.034, roll=0.15, bare=0.003
+    ),
 }
 
 
@@ -64,7 +71,9 @@ class Head:
         quads = quads[near]
         used = np.unique(quads)
         wide = np.abs(points[used][points[used][:, 1] > self.eyes[1] + 0.03, 0]).max()
-        used = used[(np.abs(points[used][:, 0]) < 1.01 * wide) | (points[used][:, 1] < self.eyes[1] - 0.07)]  # no ears
+        ear = (np.abs(points[used][:, 0]) > 1.01 * wide) & (points[used][:, 1] > self.eyes[1] - 0.07)
+        self.ears = cKDTree(points[used[ear]])
+        used = used[~ear]
         self.points, self.normals, self.wide = points[used], normals[used], wide
         self.tree = cKDTree(self.points)
         self.triangles = points[np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])]
@@ -101,7 +110,7 @@ class Head:
         u, v = np.where(turned, 1 - u, u), np.where(turned, 1 - v, v)
         places = a[chosen] + u[:, None] * (b - a)[chosen] + v[:, None] * (c - a)[chosen]
         above = self.above_hairline(places, style)
-        grows = (above > 0) & (np.abs(places[:, 0]) < 1.01 * self.wide)
+        grows = (above > style.bare) & (np.abs(places[:, 0]) < 1.01 * self.wide)
         places, above = places[grows], above[grows]
         kept = []
         # The place that is furthest from all others, again and again; the edge counts as if it were larger.
@@ -171,7 +180,20 @@ def traced(style, head, random):
             place[:, 0] = np.clip(place[:, 0], -head.wide - 0.5 * layer, head.wide + 0.5 * layer)
         lines.append(place)
         normals.append(normal)
-    return np.stack(lines, 1), np.stack(normals, 1)
+    lines, normals = np.stack(lines, 1), np.stack(normals, 1)
+    return _clear_of_ears(lines, normals, head) if style.hug == 1 else (lines, normals)
+
+
+def _clear_of_ears(lines, normals, head):
+    """The lines cut where they come to an ear; those that begin there are left out."""
+    near = head.ears.query(lines)[0] < EAR_CLEAR
+    steps = lines.shape[1] - 1
+    last = np.where(near.any(1), near.argmax(1), steps)
+    kept = last > EAR_LEAST * steps
+    at = last[kept, None] * np.arange(steps + 1) / steps
+    low = np.minimum(at.astype(int), steps - 1)
+    row, share = np.arange(len(at))[:, None], (at - low)[..., None]
+    return tuple(v[kept][row, low] * (1 - share) + v[kept][row, low + 1] * share for v in (lines, normals))
 
 
 def bun_lines(style, head, random, count):
@@ -193,14 +215,14 @@ def across_strands(along, normals, sign):
     return np.concatenate([across, np.broadcast_to(-sign, (*across.shape[:-1], 1))], -1)
 
 
-def strips(lines, normals, width, random, segments):
+def strips(lines, normals, width, random, segments, roll):
     """(points, normals, uvs, tangents, triangles) of flat strips along the lines."""
     count, steps, _ = lines.shape
     at = np.round(np.linspace(0, 1, segments + 1) ** 1.4 * (steps - 1)).astype(int)  # hair bends most at its root
     along = _unit(np.gradient(lines, axis=1))[:, at]
     lines, normals = lines[:, at], normals[:, at]
     across = _unit(np.cross(along, normals))
-    roll = random.uniform(-0.6, 0.6, (count, 1, 1))
+    roll = random.uniform(-roll, roll, (count, 1, 1))
     across = _unit(np.cos(roll) * across + np.sin(roll) * normals)
     face = _unit(np.cross(across, along))
     share = np.linspace(0, 1, segments + 1)[None, :, None]
@@ -261,9 +283,12 @@ def grown(style, head, body, joint, joints, seed):
     lines, normals = traced(style, head, random)
     lines = waved(lines, normals, style.wave, random)
     segments = int(np.clip(round(max(style.length) / 0.018), 2, 7))
-    parts = [underlayer(style, head, *body, lines, random), strips(lines, normals, style.width, random, segments)]
+    parts = [
+        underlayer(style, head, *body, lines, random),
+        strips(lines, normals, style.width, random, segments, style.roll),
+    ]
     if style.bun:
-        parts.append(strips(*bun_lines(style, head, random, 60), 1.3 * style.width, random, 7))
+        parts.append(strips(*bun_lines(style, head, random, 60), 1.3 * style.width, random, 7, BUN_ROLL))
     total, gathered = 0, [[], [], [], [], []]
     for points, shading, uvs, tangents, triangles in parts:
         for values, more in zip(gathered, (points, shading, uvs, tangents, triangles + total)):

@@ -23,7 +23,7 @@ class Surface:
     moves: dict = field(default_factory=dict)  # morph: (V, 3) [m]
     normal_moves: dict = field(default_factory=dict)  # morph: (V, 3)
     tangents: np.ndarray | None = None  # (V, 4) unit, along growing u; w: handedness as glTF has it
-    colours: np.ndarray | None = None  # (V, 3) 0..1 linear, times the material's
+    colours: np.ndarray | None = None  # (V, 3 or 4) 0..1 linear, times the material's; with opacity
 
 
 def normals_of(points, quads):
