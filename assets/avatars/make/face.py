@@ -161,7 +161,8 @@ class FaceMoves:
             z = self.rest[rows, 2]
             out = ramp(z, z.min(), z.max())
             moves[rows, 2] = 0.042 * out
-            moves[rows, 1] = -0.004 * out**2
+            moves[rows, 1] = -0.013 * out**2  # onto the lower lip; ours, by eye, as is how narrow the tip is
+            moves[rows, 0] = -0.3 * self.rest[rows, 0] * out**3
         return moves
 
     def sideways(self):

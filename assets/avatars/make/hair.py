@@ -16,8 +16,8 @@ STEP = 0.004  # [m] of tracing
 COLUMNS = 8  # bundles of strands in the texture
 HELD = 0.06  # [m] that hair of weight 1 goes as it is combed before it hangs
 TURN, RISE = 0.007, 0.003  # [m] of growth in which hair turns to where it is combed, and rises to its layer
-EAR_CLEAR = 0.007  # [m] from an ear: there hair ends that is held down
-EAR_LEAST = 0.3  # of its length; hair of which no more would be left is left out
+EAR_CLEAR, EAR_TOP = 0.006, 0.012  # [m] from an ear, below its top: there hair ends that is held down
+EAR_LEAST = 0.5  # of its length; hair of which no more would be left is left out
 RUFFLE = 0.2  # of the normals of the layer under the strips, which would shine like a cap
 SUNK = 0.002  # [m] under the skin, where that layer meets the hairline
 ROUGHNESS, ANISOTROPY = 0.4, 0.6  # of strands: light lies in a band round the head, wide across them and narrow along them
@@ -54,7 +54,7 @@ class Style:
 STYLES = {
     "short": Style("whorl", 1700, (0.040, 0.022, 0.018), 0.009, 0.012, weight=0.2, lift=0.5),
     "receding": Style("whorl", 1550, (0.030, 0.018, 0.016), 0.006, 0.011, weight=0.2, lift=0.4, hairline=0.022),
-    "swept": Style("parted", 544, (0.105, 0.036, 0.020), 0.012, 0.012, parting=0.034, weight=0.5, lift=0.5, wave=(0.0015, 0.05)),
+    "swept": Style("parted", 532, (0.105, 0.036, 0.020), 0.012, 0.012, parting=0.034, weight=0.5, lift=0.5, wave=(0.0015, 0.05)),
     "bob": Style("parted", 438, (0.235, 0.160, 0.110), 0.011, 0.015, parting=0.022, weight=0.9, hug=0.2, lift=0.3, wave=(0.002, 0.09)),
     "bun": Style(
         "back", 370, (0.190, 0.150, 0.120), 0.006, 0.013, weight=0.0, lift=0.0, bun=0.034, roll=0.15, bare=0.003
@@ -186,7 +186,8 @@ def traced(style, head, random):
 
 def _clear_of_ears(lines, normals, head):
     """The lines cut where they come to an ear; those that begin there are left out."""
-    near = head.ears.query(lines)[0] < EAR_CLEAR
+    top = head.ears.data[:, 1].max()
+    near = (head.ears.query(lines)[0] < EAR_CLEAR) & (lines[..., 1] < top - EAR_TOP)
     steps = lines.shape[1] - 1
     last = np.where(near.any(1), near.argmax(1), steps)
     kept = last > EAR_LEAST * steps
