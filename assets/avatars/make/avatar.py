@@ -20,6 +20,7 @@ TONGUE_SHIFT = (0, -0.0015, -0.010)  # [m] keeps it behind the teeth
 TEETH_LIT, TEETH_FADE, TEETH_DARK = 0.007, 0.015, 0.10  # [m], [m], share of light
 TEETH_REDDEN = (1.0, 1.35, 1.45)  # powers of that share: light that is left has met the inside of the mouth
 TEETH_SPECULAR = 0.4  # of a surface in the open, so that dark teeth do not shine like metal; ours, by eye
+TONGUE_TINT = (1.05, 0.87, 0.85)  # its back is else a dull brown in an open mouth; ours, by eye
 TEETH_FROM, GUMS_FROM = 0.106, 0.088  # [m, base mesh] what lies behind is never seen
 
 
@@ -294,7 +295,7 @@ def make(package, person, path):
     maker.add_teeth()
     maker.add_proxy("tongue", package.proxy("tongue", "tongue01"), True, shift=TONGUE_SHIFT)
     tongue = package.image("proxies", "tongue", "tongue01", "textures", "tongue01_diffuse.png")
-    maker.material("tongue", 0.4, image=paint.jpeg(tongue[::2, ::2]))
+    maker.material("tongue", 0.6, image=paint.jpeg(TONGUE_TINT * tongue[::2, ::2, :3]))
     glb.write_glb(path, person.name, maker.surfaces, maker.materials, maker.images, (rig.NAMES, rig.PARENTS, maker.joints), rig.strongest_four)
     count = {}
     for name, part in maker.surfaces:
