@@ -65,7 +65,8 @@ FaceRows rows_of_pyfeat(const CsvTable& table, std::optional<double> fps) {
 
 bool looks_like_pyfeat(const std::vector<std::string>& columns) {
     return std::ranges::find(columns, "FaceScore") != columns.end() &&
-           std::ranges::any_of(columns, [](const std::string& column) { return unit_of_pyfeat(column).has_value(); });
+           std::ranges::any_of(columns,
+                               [](const std::string& column) { return unit_of_pyfeat(column).has_value(); });
 }
 
 Motion face_of_pyfeat(std::string_view text, const std::string& where, std::optional<double> fps) {
