@@ -65,6 +65,7 @@ constexpr std::array kOther = {
     KnownShape{"nosescrunch", {9, 1}},
     KnownShape{"upperlipup", {10, 1}},
     KnownShape{"smile", {12, 1}},
+    KnownShape{"mouthcornerpull", {12, 1}},
     KnownShape{"frown", {15, 1}},
     KnownShape{"lowerlipdown", {16, 1}},
     KnownShape{"lowerlipdown", {25, .5f}},
@@ -261,10 +262,17 @@ std::optional<FaceSide> side_named(std::string_view word) {
     return std::nullopt;
 }
 
-// "h_expressions.LsmileClose_h": the side leans on the first word, and the last one is the level of detail.
+// "h_expressions.LsmileClose_h": the side leans on the first word, and the last one is the level of detail. Blender's
+// "mouthSmile.L" and "jawOpen.001" have no group before the dot.
 std::string without_daz_marks(std::string_view name) {
-    std::string stem(
-        name.substr(name.find_last_of(".:") == std::string_view::npos ? 0 : name.find_last_of(".:") + 1));
+    const auto is_group_end = [&](size_t at) {
+        const std::string behind = to_lower(name.substr(at + 1));
+        return !side_named(behind) && !std::all_of(behind.begin(), behind.end(), is_digit);
+    };
+    size_t at = name.find_last_of(".:");
+    while (at != std::string_view::npos && !is_group_end(at))
+        at = at == 0 ? std::string_view::npos : name.find_last_of(".:", at - 1);
+    std::string stem(name.substr(at == std::string_view::npos ? 0 : at + 1));
     if (!stem.ends_with("_h")) return stem;
     stem.resize(stem.size() - 2);
     const bool sided = stem.size() > 2 && (stem[0] == 'L' || stem[0] == 'R') && is_lower(stem[1]);
@@ -314,12 +322,19 @@ void add_units(ShapeMeaning& meaning, const Table& table, NameFamily family) {
     }
 }
 
-// "lipcornerpuller"
+// "lipcornerpuller", or what it does: "lipcornerpull", "cheekraise", "lippress"
+bool names_unit(std::string_view key, std::string_view name) {
+    if (key == name) return true;
+    for (const std::string_view ending : {"r", "er", "or"})
+        if (name.ends_with(ending) && key == name.substr(0, name.size() - ending.size())) return true;
+    return false;
+}
+
 void add_unit_by_its_name(ShapeMeaning& meaning) {
     for (const int unit : known_action_units()) {
         std::string squashed(name_of_unit(unit));
         std::erase(squashed, ' ');
-        if (meaning.key != squashed || !meaning.units.empty()) continue;
+        if (!names_unit(meaning.key, squashed) || !meaning.units.empty()) continue;
         meaning.family = NameFamily::facs;
         meaning.units = {{.unit = unit, .weight = 1}};
     }
@@ -346,6 +361,12 @@ ShapeMeaning meaning_of_key(const std::string& key, bool expression) {
     return meaning;
 }
 
+size_t length_of_all(const std::vector<std::string>& words) {
+    size_t length = 0;
+    for (const std::string& word : words) length += word.size();
+    return length;
+}
+
 ShapeMeaning meaning_of_words(const std::vector<std::string>& words, bool expression) {
     for (size_t first = 0; first < words.size(); ++first) {
         std::string key;
@@ -353,7 +374,13 @@ ShapeMeaning meaning_of_words(const std::vector<std::string>& words, bool expres
         // A short word ends many others that mean something else ("doublechin"), and a side is never dropped.
         if (first > 0 && (key.size() < kShortestEnding || side_named(words[first - 1]))) break;
         ShapeMeaning meaning = meaning_of_key(key, expression);
-        if (meaning.is_known()) return meaning;
+        if (!meaning.is_known()) continue;
+        // "jawOpen_mouthSmile" corrects where both are shown; one of them alone must not move it.
+        const std::vector<std::string> before(words.begin(),
+                                              words.begin() + static_cast<std::ptrdiff_t>(first));
+        if (length_of_all(before) >= kShortestEnding && meaning_of_words(before, expression).is_known())
+            return {};
+        return meaning;
     }
     return {};
 }
@@ -398,7 +425,11 @@ ShapeMeaning read_name(std::string_view name, bool expression) {
         if (known.name == name) name = known.meaning;
     if (const auto unit = read_unit_name(name)) return *unit;
     const std::vector<std::string> words = words_of(without_daz_marks(name));
-    if (ShapeMeaning whole = meaning_of_words(words, expression); whole.is_known()) return whole;
+    // "Cheek_Raise_R" is the right side's, not a "cheekraiser".
+    const bool has_letter = std::any_of(words.begin(), words.end(),
+                                        [](const std::string& word) { return word == "l" || word == "r"; });
+    if (ShapeMeaning whole = meaning_of_words(words, expression); !has_letter && whole.is_known())
+        return whole;
     for (const Sided& sided : {without_side(words), without_ending(words)}) {
         ShapeMeaning meaning = meaning_of_words(sided.words, expression);
         if (!meaning.is_known()) continue;

@@ -37,6 +37,9 @@ INSTANTIATE_TEST_SUITE_P(
         Reading{"au_01_r", 1, kRight, NameFamily::facs},
         Reading{"AU_12_L_LipCornerPuller", 12, kLeft, NameFamily::facs},
         Reading{"lipCornerPullerR", 12, kRight, NameFamily::facs},
+        Reading{"InnerBrowRaise_R", 1, kRight, NameFamily::facs},
+        Reading{"NoseWrinkle_L", 9, kLeft, NameFamily::facs},
+        Reading{"CTRL_expressions_mouthCornerPullL", 12, kLeft, NameFamily::other},
         // ARKit in its usual spellings
         Reading{"mouthSmileLeft", 12, kLeft}, Reading{"mouthSmile_L", 12, kLeft},
         Reading{"MouthSmileL", 12, kLeft}, Reading{"mouthsmileleft", 12, kLeft},
@@ -49,6 +52,10 @@ INSTANTIATE_TEST_SUITE_P(
         Reading{"Facial_Blends.Smile_Left", 12, kLeft, NameFamily::other},
         Reading{"BrowsUp_Right", 2, kRight, NameFamily::other},
         Reading{"Brow_Raise_Inner_L", 1, kLeft, NameFamily::other},
+        Reading{"Cheek_Raise_R", 6, kRight, NameFamily::facs}, Reading{"Mouth_Dimple_R", 14, kRight},
+        Reading{"Cheek_Raise_L", 6, kLeft, NameFamily::facs}, Reading{"mouthDimpleR", 14, kRight},
+        Reading{"mouthSmile.L", 12, kLeft}, Reading{"Key.browDown.R", 4, kRight},
+        Reading{"jawOpen.001", 26, kBoth, NameFamily::arkit, .7f},
         Reading{"h_expressions.LsmileClose_h", 12, kLeft, NameFamily::other},
         Reading{"h_expressions.ReyeClose_h", 45, kRight, NameFamily::other},
         Reading{"h_expressions.Ljaw_h", 30, kLeft, NameFamily::other},
@@ -72,9 +79,9 @@ INSTANTIATE_TEST_SUITE_P(
         Reading{"vrc.blink_left", 45, kLeft, NameFamily::facs}));
 
 TEST(ShapeName, OfNothingKnownSaysNothing) {
-    for (const char* name :
-         {"", "morph 3", "mouthLeft", "doublechin", "AU99", "AU6_AU12", "viseme_PP", "basis", "AE_AA_h",
-          "h_expressions.FV_h", "jaunty", "Fcl_ALL_Joy", "え", "笑い", "e"}) {
+    for (const char* name : {"", "morph 3", "mouthLeft", "doublechin", "AU99", "AU6_AU12", "viseme_PP",
+                             "basis", "AE_AA_h", "jawOpen_mouthSmileLeft", "corrective_jawOpen_mouthSmile_R",
+                             "h_expressions.FV_h", "jaunty", "Fcl_ALL_Joy", "え", "笑い", "e"}) {
         const ShapeMeaning meaning = read_shape_name(name);
         EXPECT_TRUE(meaning.units.empty()) << name;
         EXPECT_EQ(meaning.look, Look::none) << name;
