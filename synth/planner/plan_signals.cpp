@@ -225,6 +225,15 @@ class SignalPlanner {
 
     double end_before(std::size_t word) const { return word == 0 ? 0 : plan_.speech.words[word - 1].end; }
 
+    // A "no" whose accent nods would be none.
+    bool is_shaken_at(double time) const {
+        const double activation = plan_.speaker[Expressivity::overall_activation];
+        return std::ranges::any_of(candidates_, [&](const Candidate& candidate) {
+            return candidate.signal.kind == SignalKind::shake && activation > candidate.threshold &&
+                   candidate.signal.start < time && time < candidate.signal.end;
+        });
+    }
+
     void add_accents() {
         for (const Accent& accent : plan_.accents.all()) {
             Random random = random_of(of_accents, accent.word);
@@ -232,8 +241,9 @@ class SignalPlanner {
                 threshold_of_chance(random.uniform(), accent.is_nuclear ? kNodNuclear : kNodOther);
             const double brow =
                 threshold_of_chance(random.uniform(), accent.is_nuclear ? kBrowNuclear : kBrowOther);
-            add({.kind = SignalKind::nod, .peak = accent.time, .amount = 0.6 + 0.4 * random.uniform()},
-                plan_.speaker, nod);
+            const double amount = 0.6 + 0.4 * random.uniform();
+            if (!is_shaken_at(accent.time))
+                add({.kind = SignalKind::nod, .peak = accent.time, .amount = amount}, plan_.speaker, nod);
             add({.kind = SignalKind::brow_raise, .peak = accent.time, .amount = 0.6 + 0.4 * random.uniform()},
                 plan_.speaker, brow);
         }
