@@ -65,11 +65,13 @@ class BuildLock {
 // A finished study is lost only to those who ask for it, and never once people have answered it: their
 // answers would have no key any more.
 void require_leave_to_replace(const StudyFolder& study, const BuildOptions& options) {
-    if (fs::exists(study.answers())) {
+    for (const fs::path& sign :
+         {study.answers(), study.database_elsewhere(), study.closed() / "answers.json"}) {
+        if (!fs::exists(sign)) continue;
         throw Error(
             format("{}: people have answered this study ({}), and another one in its place would leave "
                    "their answers without a key; name a new folder",
-                   study.root.string(), study.answers().string()));
+                   study.root.string(), sign.string()));
     }
     if (fs::exists(study.manifest()) && !options.replace) {
         throw Error(format(

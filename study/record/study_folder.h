@@ -21,6 +21,7 @@ struct StudyFolder {
     std::filesystem::path report() const { return closed() / "report.html"; }
     std::filesystem::path manifest() const { return closed() / "manifest.json"; }
     std::filesystem::path answers() const { return closed() / "answers.sqlite"; }  // unless kept elsewhere
+    std::filesystem::path database_elsewhere() const { return closed() / "database.txt"; }  // then its path
     std::filesystem::path archive() const { return root / "archive.json"; }  // where an archive was unpacked
 };
 

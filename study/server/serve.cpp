@@ -121,8 +121,19 @@ struct StudyServer::Parts {
                 .clocks = options.clocks,
                 .complain = options.complain,
                 .sent_away = [this] { return http.sent_away(); }}) {
+        leave_mark(options.study);
         check_sheets();
         store.end_signs_of_life_at(options.clocks.unix_time());
+    }
+
+    // A build must not replace a study whose answers lie elsewhere. Where nothing can be written nothing can be built.
+    void leave_mark(const fs::path& folder) const {
+        const fs::path mark = StudyFolder{folder}.database_elsewhere();
+        if (database == default_database(folder) || fs::exists(mark)) return;
+        try {
+            write_text(mark, fs::absolute(database).string() + "\n");
+        } catch (const Error&) {
+        }
     }
 
     // A study that was built again may have other sheets: answers must not be taken for those to other pages.

@@ -617,6 +617,11 @@ TEST_F(BuildStudy, ReplacesAFinishedStudyOnlyWhenAskedTo) {
     EXPECT_THAT(refusal_of(replace), HasSubstr("people have answered this study"));
     EXPECT_EQ(build("study", 7).recorded, 0u);
     fs::remove(folder_ / "study/private/answers.sqlite");
+    for (const char* sign : {"database.txt", "answers.json"}) {
+        write_text(folder_ / "study/private" / sign, "elsewhere");
+        EXPECT_THAT(refusal_of(replace), HasSubstr(sign));
+        fs::remove(folder_ / "study/private" / sign);
+    }
     EXPECT_EQ(files_of("study"), first);
     replace();
     EXPECT_NE(files_of("study"), first);
