@@ -229,7 +229,9 @@ std::size_t full_sheets(const DesignShape& shape) {
         const std::size_t shown = count_shown(shape, block);
         const std::size_t pages = count_clips(shape, block) * shape.groups.size();
         const std::size_t sets = pages / std::gcd(pages, shown);
-        most = std::max(most, shown == pages ? count_rows(pages) : sets);
+        const std::size_t rows = count_rows(shown);
+        const std::size_t rounds = std::clamp<std::size_t>(kMostSheets / sets, 1, rows);
+        most = std::max(most, shown == pages ? rows : sets * rounds);
     }
     return most * ways_of(shape) * count_blocks(shape);
 }

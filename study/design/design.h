@@ -72,8 +72,9 @@ std::size_t count_shown(const DesignShape& shape, std::size_t block);
 
 // How many sheets it takes until everything is balanced: where a sheet shows all pages of its block,
 // Williams, "Experimental designs balanced for the estimation of residual effects of treatments", 1949 (P
-// orders for an even number of pages, 2 P for an odd one); else until every page was shown equally often.
-// Twice as many where sides are mirrored.
+// orders for an even number of pages, 2 P for an odd one); else until every page was shown equally often, and then so
+// many times that, up to kMostSheets, as it takes to lead pages through the positions. Twice as many where sides are
+// mirrored.
 std::size_t full_sheets(const DesignShape& shape);
 
 // The same shape and seed give the same design.

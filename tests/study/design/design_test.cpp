@@ -248,6 +248,19 @@ TEST(DrawDesign, KeepsPagesNearTheMiddleOnAverageWhenFewSheetsAreTaken) {
     }
 }
 
+// Of two conditions and five clips, each once: two sets of pages, each at every position.
+TEST(DrawDesign, LeadsPagesOfSamplesThroughThePositions) {
+    DesignShape shape{.clips = 5, .groups = {{0}, {1}}, .sides = SideRule::fixed, .each_clip_once = true};
+    EXPECT_EQ(full_sheets(shape), 20u);
+    shape.sheets = full_sheets(shape);
+    const CountRange positions = count_positions(draw_design(shape, 3));
+    EXPECT_EQ(positions.least, 2u);
+    EXPECT_EQ(positions.most, 2u);
+    shape.clips = 1500;
+    shape.pages_per_sheet = 7;
+    EXPECT_EQ(full_sheets(shape), 3000u) << "every page is shown";
+}
+
 TEST(DrawDesign, StopsAtTheMostSheetsUnlessMoreAreAskedFor) {
     const DesignShape shape{.clips = 60, .groups = all_pairs(2), .sides = SideRule::mirror};
     EXPECT_EQ(full_sheets(shape), 120u);
