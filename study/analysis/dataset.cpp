@@ -49,6 +49,12 @@ struct Joining {
     std::size_t trial = 0;  // of the participant's answers
 };
 
+// A question as the key has it, and its place among those of the data.
+struct Asked {
+    const Question& question;
+    std::size_t index = 0;
+};
+
 std::vector<std::string> chosen_reasons(const Json& reasons, const std::string& question) {
     if (!reasons.is_object() || !reasons.contains(question) || reasons[question].is_null()) return {};
     return reasons[question].at("chosen").get<std::vector<std::string>>();
@@ -69,57 +75,56 @@ std::string pair_label(const Dataset& data, std::size_t first, std::size_t secon
     return data.conditions[first].name + " over " + data.conditions[second].name;
 }
 
-void add_preference(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
+void add_preference(Dataset& data, const Joining& join, const Asked& asked, const Json& value) {
     const std::vector<std::size_t> compared = compared_on(join.page, join.key);
     if (compared.size() != 2 || compared[0] == compared[1]) return;
-    const Question& asked = join.key.questions[question];
     const bool turned = compared[0] > compared[1];
-    const int towards_left = steps_towards_left(value.get<int>(), asked.answers.size());
+    const int towards_left = steps_towards_left(value.get<int>(), asked.question.answers.size());
     const int towards_first = turned ? -towards_left : towards_left;
     const bool mirrored = is_mirrored(join.answer.order);
     const Json none;
-    const Json& reasons =
-        asks_for_reasons(asked, join.answer.values.at(asked.id)) ? join.answer.reasons : none;
+    const Json& reasons = asks_for_reasons(asked.question, join.answer.values.at(asked.question.id))
+                              ? join.answer.reasons
+                              : none;
     Preference preference{.participant = join.participant,
-                          .question = question,
+                          .question = asked.index,
                           .unit = number_of(data.units, join.page.token),
                           .first = std::min(compared[0], compared[1]),
                           .second = std::max(compared[0], compared[1]),
                           .left = mirrored ? compared[1] : compared[0],
                           .clip = join.page.clip,
                           .value = towards_first,
-                          .strength = strength_of(towards_first, asked.answers.size()),
-                          .reasons = chosen_reasons(reasons, asked.id),
-                          .other_reason = other_reason(reasons, asked.id)};
+                          .strength = strength_of(towards_first, asked.question.answers.size()),
+                          .reasons = chosen_reasons(reasons, asked.question.id),
+                          .other_reason = other_reason(reasons, asked.question.id)};
     if (join.key.layout == Layout::triplet) {
         const std::size_t cell = number_of(data.cells, pair_label(data, preference.first, preference.second));
         data.scores.push_back(
             {.participant = join.participant,
-             .question = question,
+             .question = asked.index,
              .cell = cell,
              .unit = preference.unit,
              .value = turned ? value.get<double>()
-                             : static_cast<double>(asked.answers.size() + 1) - value.get<double>()});
+                             : static_cast<double>(asked.question.answers.size() + 1) - value.get<double>()});
     }
     data.preferences.push_back(std::move(preference));
 }
 
 // Of a rating or slider about the whole page: in a triplet similarity to A or B, else of what it shows.
-void add_page_score(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
-    const Question& asked = join.key.questions[question];
+void add_page_score(Dataset& data, const Joining& join, const Asked& asked, const Json& value) {
     const std::vector<std::size_t> compared = compared_on(join.page, join.key);
     Score score{.participant = join.participant,
-                .question = question,
+                .question = asked.index,
                 .unit = number_of(data.units, join.page.token),
                 .value = value.get<double>()};
     if (compared.size() == 1) {
         score.cell = compared.front();
     } else if (join.key.layout == Layout::triplet && compared.size() == 2 &&
-               asked.kind == QuestionKind::rating) {
+               asked.question.kind == QuestionKind::rating) {
         const auto [first, second] = std::minmax(compared[0], compared[1]);
         score.cell = number_of(data.cells, pair_label(data, first, second));
         // 1 means very similar to A, so the score is reversed if the first condition is A.
-        if (compared[0] == first) score.value = 1 + asked.points - score.value;
+        if (compared[0] == first) score.value = 1 + asked.question.points - score.value;
     } else {
         score.cell = number_of(data.cells, label_of(data, compared));
     }
@@ -127,11 +132,11 @@ void add_page_score(Dataset& data, const Joining& join, std::size_t question, co
 }
 
 // Of each video by itself, by its place in the key.
-void add_each_score(Dataset& data, const Joining& join, std::size_t question, const Json& values) {
+void add_each_score(Dataset& data, const Joining& join, const Asked& asked, const Json& values) {
     for (std::size_t shown = 0; shown < join.answer.order.size(); ++shown) {
         const std::size_t place = join.answer.order[shown];
         data.scores.push_back({.participant = join.participant,
-                               .question = question,
+                               .question = asked.index,
                                .cell = join.page.places[place].condition,
                                .unit = number_of(data.units, format("{}/{}", join.page.token, place)),
                                .place = shown,
@@ -163,23 +168,22 @@ void add_cells_of_options(Dataset& data, const StudyKey& key) {
     }
 }
 
-void add_option_ranks(Dataset& data, const Joining& join, std::size_t question, const Json& values) {
-    const Question& asked = join.key.questions[question];
+void add_option_ranks(Dataset& data, const Joining& join, const Asked& asked, const Json& values) {
     const std::vector<std::size_t> shown = compared_on(join.page, join.key);
-    for (std::size_t i = 0; i < asked.options.size(); ++i) {
+    for (std::size_t i = 0; i < asked.question.options.size(); ++i) {
         data.scores.push_back({.participant = join.participant,
-                               .question = question,
-                               .cell = cell_of_option(data, shown, asked, i),
+                               .question = asked.index,
+                               .cell = cell_of_option(data, shown, asked.question, i),
                                .unit = number_of(data.units, format("{}/{}", join.page.token, i)),
                                .place = i,
                                .value = values[i].get<double>()});
     }
 }
 
-void add_choice(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
-    const bool of_videos = join.key.questions[question].options.empty();
+void add_choice(Dataset& data, const Joining& join, const Asked& asked, const Json& value) {
+    const bool of_videos = asked.question.options.empty();
     Choice choice{.participant = join.participant,
-                  .question = question,
+                  .question = asked.index,
                   .unit = number_of(data.units, join.page.token),
                   .option = of_videos
                                 ? data.conditions[join.page.places[value.get<std::size_t>()].condition].name
@@ -201,43 +205,42 @@ std::string chosen_answer(const Joining& join, const Question& asked, const Json
     return condition(static_cast<std::size_t>(first - ranks.begin()));
 }
 
-void add_judged(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
-    const Question& asked = join.key.questions[question];
-    const auto right = join.page.right.find(asked.id);
+void add_judged(Dataset& data, const Joining& join, const Asked& asked, const Json& value) {
+    const auto right = join.page.right.find(asked.question.id);
     if (right == join.page.right.end()) return;
-    data.judged.push_back({.participant = join.participant,
-                           .question = question,
-                           .given = chosen_answer(join, asked, value),
-                           .right = right->second,
-                           .possible = is_of_videos(asked) ? join.page.places.size() : asked.options.size()});
+    data.judged.push_back(
+        {.participant = join.participant,
+         .question = asked.index,
+         .given = chosen_answer(join, asked.question, value),
+         .right = right->second,
+         .possible = is_of_videos(asked.question) ? join.page.places.size() : asked.question.options.size()});
 }
 
-void add_value(Dataset& data, const Joining& join, std::size_t question, const Json& value) {
-    const Question& asked = join.key.questions[question];
-    switch (asked.kind) {
+void add_value(Dataset& data, const Joining& join, const Asked& asked, const Json& value) {
+    switch (asked.question.kind) {
         case QuestionKind::preference:
-            add_preference(data, join, question, value);
+            add_preference(data, join, asked, value);
             break;
         case QuestionKind::rating:
         case QuestionKind::slider:
-            if (asked.each) {
-                add_each_score(data, join, question, value);
+            if (asked.question.each) {
+                add_each_score(data, join, asked, value);
             } else {
-                add_page_score(data, join, question, value);
+                add_page_score(data, join, asked, value);
             }
             break;
         case QuestionKind::number:
-            add_page_score(data, join, question, value);
+            add_page_score(data, join, asked, value);
             break;
         case QuestionKind::rank:
-            if (asked.options.empty()) {
-                add_each_score(data, join, question, value);
+            if (asked.question.options.empty()) {
+                add_each_score(data, join, asked, value);
             } else {
-                add_option_ranks(data, join, question, value);
+                add_option_ranks(data, join, asked, value);
             }
             break;
         case QuestionKind::choice:
-            add_choice(data, join, question, value);
+            add_choice(data, join, asked, value);
             break;
         case QuestionKind::text:
             break;
@@ -249,17 +252,17 @@ std::string shown_text(const Json& value) {
                              : value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void add_row(Dataset& data, const Joining& join, std::size_t question, const Json& in_places) {
+void add_row(Dataset& data, const Joining& join, const Asked& asked, const Json& in_places) {
     std::vector<std::size_t> shown;
     for (const std::size_t place : join.answer.order) shown.push_back(join.page.places[place].condition);
     data.rows.push_back({.participant = join.participant,
-                         .question = question,
+                         .question = asked.index,
                          .block = join.page.block,
                          .trial = join.trial,
                          .kind = join.page.kind,
                          .clip = join.page.clip,
                          .conditions = names_of(data.conditions, shown, "|"),
-                         .value = shown_text(join.answer.values.at(join.key.questions[question].id)),
+                         .value = shown_text(join.answer.values.at(asked.question.id)),
                          .value_of_places = shown_text(in_places),
                          .seconds = join.answer.seconds});
 }
@@ -274,7 +277,8 @@ std::size_t count_left_out(const Joining& join) {
         }));
 }
 
-// Answers may have been lost on their way, or removed: what a participant says does not make a sheet complete.
+// Answers may have been lost on their way, or removed: what a participant says does not make a sheet complete, nor does
+// it make one incomplete that was left before the questions at the end.
 bool has_finished(Dataset& data, const StudyPages& pages, const Respondent& participant) {
     if (participant.sheet >= pages.sheets.size())
         throw Error(format(
@@ -282,10 +286,10 @@ bool has_finished(Dataset& data, const StudyPages& pages, const Respondent& part
             "of the study",
             participant.file, participant.name, participant.sheet,
             pages.sheets.size() == 1 ? "sheet 0 alone" : format("sheets 0 to {}", pages.sheets.size() - 1)));
-    if (!participant.finished) return false;
     const std::vector<Step> steps = steps_of_sheet(pages, participant.sheet);
     const std::size_t answered = count_answered(steps, participant.answers);
     if (answered == steps.size()) return true;
+    if (!participant.finished) return false;
     data.notes.push_back(format(
         "{}: participant {} says \"finished\", but has {} of the {} answers of sheet {}, and counts as "
         "one who did not finish.",
@@ -306,10 +310,10 @@ struct Uncounted {
 std::size_t add_scale(Dataset& data, const Joining& join, std::size_t index,
                       const std::vector<Score>& given) {
     const Scale& scale = join.key.scales[index];
-    const std::size_t question = join.key.questions.size() + index;
+    const std::size_t question = data.first_scale() + index;
     std::size_t incomplete = 0;
     std::map<std::size_t, std::map<std::size_t, Score>> by_unit;  // and by item
-    for (const Score& score : given) by_unit[score.unit][score.question] = score;
+    for (const Score& score : given) by_unit[score.unit][data.asked_as(score.question)] = score;
     for (const auto& [unit, scores] : by_unit) {
         ScaleAnswer answer{.participant = join.participant, .question = question, .clip = join.page.clip};
         Score mean;
@@ -353,10 +357,11 @@ void join_one(Dataset& data, const Joining& join, Uncounted& uncounted) {
         if (!join.answer.values.contains(question.id)) continue;
         const Json value = to_places(join.answer.values[question.id], question, join.answer.order,
                                      join.key.layout == Layout::triplet);
-        add_row(data, join, q, value);
+        const Asked asked{.question = question, .index = data.index_of(q, join.answer.pass)};
+        add_row(data, join, asked, value);
         if (join.page.kind != PageKind::trial || value.is_null()) continue;
-        add_value(data, join, q, value);
-        add_judged(data, join, q, value);
+        add_value(data, join, asked, value);
+        add_judged(data, join, asked, value);
     }
     uncounted.incomplete += add_scales(data, join, scores_before);
 }
@@ -454,6 +459,25 @@ Question as_question(const Scale& scale, const std::vector<Question>& questions)
             .most = range.most};
 }
 
+// What is asked in several passes, as without sound and with it, is as many questions.
+void add_questions_of_passes(Dataset& data, const StudyKey& key, const StudyPages& pages) {
+    std::vector<std::set<std::size_t>> passes(key.questions.size());
+    for (const StudyPage& page : pages.pages) {
+        for (std::size_t pass = 0; pass < page.passes.size(); ++pass)
+            for (const std::size_t question : page.passes[pass].questions) passes[question].insert(pass);
+    }
+    for (std::size_t q = 0; q < key.questions.size(); ++q) {
+        if (passes[q].size() < 2) continue;
+        for (const std::size_t pass : passes[q]) {
+            const bool is_first = pass == *passes[q].begin();
+            if (!is_first) data.questions.push_back(key.questions[q]);
+            const std::size_t index = is_first ? q : data.questions.size() - 1;
+            data.questions[index].id = format("{}, pass {}", key.questions[q].id, pass + 1);
+            data.of_passes[{q, pass}] = index;
+        }
+    }
+}
+
 void check_questionnaire(const StudyPages& pages, const Respondent& participant) {
     for (const auto& [id, value] : participant.questionnaire.items()) {
         const auto asked = std::find_if(pages.questionnaire.begin(), pages.questionnaire.end(),
@@ -471,9 +495,19 @@ void check_questionnaire(const StudyPages& pages, const Respondent& participant)
 }  // namespace
 
 bool Dataset::is_item(std::size_t question) const {
-    return std::ranges::any_of(scales, [question](const Scale& scale) {
-        return std::ranges::find(scale.items, question) != scale.items.end();
+    return std::ranges::any_of(scales, [asked = asked_as(question)](const Scale& scale) {
+        return std::ranges::find(scale.items, asked) != scale.items.end();
     });
+}
+
+std::size_t Dataset::index_of(std::size_t question, std::size_t pass) const {
+    const auto found = of_passes.find({question, pass});
+    return found == of_passes.end() ? question : found->second;
+}
+
+std::size_t Dataset::asked_as(std::size_t question) const {
+    const auto found = std::ranges::find_if(of_passes, [&](const auto& of) { return of.second == question; });
+    return found == of_passes.end() ? question : found->first.first;
 }
 
 std::string label_of(const Dataset& data, std::vector<std::size_t> conditions) {
@@ -491,6 +525,7 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                  .scales = key.scales,
                  .questionnaire = pages.questionnaire,
                  .rules = key.exclusions};
+    add_questions_of_passes(data, key, pages);
     for (const Scale& scale : key.scales) data.questions.push_back(as_question(scale, key.questions));
     for (const KeyCondition& condition : key.conditions) data.cells.push_back(condition.name);
     add_cells_of_options(data, key);
@@ -506,7 +541,7 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
     }
     note_uncounted(data, uncounted);
     for (std::size_t i = 0; i < key.scales.size(); ++i)
-        note_contrary_item(data, key.scales[i], key.questions.size() + i);
+        note_contrary_item(data, key.scales[i], data.first_scale() + i);
     return data;
 }
 

@@ -170,6 +170,26 @@ TEST(ReasonsToExclude, JudgeAQuestionInThePassThatAsksIt) {
     EXPECT_THAT(data.notes, IsEmpty());
 }
 
+// Without sound ours is preferred, with sound the baseline: two questions, not one that cancels itself out.
+TEST(JoinAnswers, CountsEachPassThatAsksTheSameByItself) {
+    const StudyKey key = pair_key();
+    StudyPages pages = pages_of(key);
+    for (StudyPage& page : pages.pages) page.passes = {{.questions = {0}}, {.questions = {0}}};
+    PageAnswer silent = answer_of(0, {0, 1}, {{"realism", 1}}),
+               heard = answer_of(0, {0, 1}, {{"realism", 5}});
+    heard.pass = 1;
+    const Dataset data = join_answers(key, with_sheet_of(pages, {silent}),
+                                      {{.name = "p-1", .finished = true, .answers = {silent, heard}}});
+    ASSERT_EQ(data.preferences.size(), 2u);
+    ASSERT_EQ(data.questions.size(), 2u);
+    for (const std::size_t pass : {0, 1}) {
+        const Preference& preference = data.preferences[pass];
+        EXPECT_EQ(data.questions[preference.question].id, pass == 0 ? "realism, pass 1" : "realism, pass 2");
+        EXPECT_EQ(preference.strength, pass == 0 ? 2 : -2);
+        EXPECT_EQ(data.asked_as(preference.question), 0u);
+    }
+}
+
 TEST(JoinAnswers, CountsQuestionsThatWereLeftOut) {
     StudyKey key = pair_key();
     key.questions.push_back({.id = "why", .kind = QuestionKind::text, .optional = true});
@@ -215,7 +235,8 @@ TEST(ReasonsToExclude, WhoIsTooFastFails) {
 
 TEST(ReasonsToExclude, WhoDidNotFinishCountsByTheLenientRule) {
     EXPECT_THAT(both_reasons(join_one(pair_key(), {answer_of(0, {0, 1}, {{"realism", 1}})}, false)),
-                ElementsAre("did not finish", ""));
+                ElementsAre("", ""))
+        << "whose page was closed after the last answer has answered all";
     EXPECT_THAT(both_reasons(join_one(pair_key(), {}, true)),
                 ElementsAre("answered nothing", "answered nothing"));
 }
@@ -242,6 +263,10 @@ TEST(ReasonsToExclude, WhoLacksAnswersOfTheSheetDidNotFinish) {
     const Dataset whole = join_on_sheet(1, {first, second, check});
     EXPECT_THAT(both_reasons(whole), ElementsAre("", ""));
     EXPECT_THAT(whole.notes, IsEmpty());
+    const Dataset silent =
+        join_answers(key, pages, {{.name = "p-1", .sheet = 1, .answers = {first, second}}});
+    EXPECT_THAT(both_reasons(silent), ElementsAre("did not finish", ""));
+    EXPECT_THAT(silent.notes, IsEmpty());
     for (const auto& some : {std::vector{first, second}, std::vector{first, check}}) {
         const Dataset data = join_on_sheet(1, some);
         EXPECT_THAT(both_reasons(data), ElementsAre("did not finish", ""));
