@@ -167,8 +167,15 @@ void read_exclusion_rules(const JsonValue& value, Plan& plan) {
     ExclusionRules& rules = plan.exclusions;
     if (const auto failed = value.find("failed_checks"))
         rules.failed_checks = static_cast<std::size_t>(failed->integer(1, kMostChecks));
-    if (const auto lenient = value.find("lenient_failed_checks"))
+    rules.lenient_failed_checks = std::max(rules.lenient_failed_checks, rules.failed_checks);
+    if (const auto lenient = value.find("lenient_failed_checks")) {
         rules.lenient_failed_checks = static_cast<std::size_t>(lenient->integer(1, kMostChecks));
+        if (rules.lenient_failed_checks < rules.failed_checks) {
+            lenient->refuse(
+                format("is {}, and failed_checks {}; the lenient rule excludes no more than the strict one",
+                       rules.lenient_failed_checks, rules.failed_checks));
+        }
+    }
     if (const auto fastest = value.find("fastest_seconds"))
         rules.fastest_seconds = fastest->number(0, kLongestWait);
 }

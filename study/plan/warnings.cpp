@@ -67,6 +67,14 @@ void warn_of_scores_of_pages(const Plan& plan, std::vector<std::string>& warning
     }
 }
 
+void warn_of_rules_without_effect(const Plan& plan, std::vector<std::string>& warnings) {
+    const std::size_t failed = plan.exclusions.failed_checks, checks = plan.checks.count;
+    if (checks == 0 || failed <= checks) return;
+    warnings.push_back(
+        format("{}: exclusions: nobody can fail {} of {} attention checks, so they exclude nobody",
+               plan.file.string(), failed, checks));
+}
+
 }  // namespace
 
 std::vector<std::string> plan_warnings(const Plan& plan) {
@@ -75,6 +83,7 @@ std::vector<std::string> plan_warnings(const Plan& plan) {
     warn_of_english_texts(plan, warnings);
     warn_of_fewer_pages(plan, warnings);
     warn_of_scores_of_pages(plan, warnings);
+    warn_of_rules_without_effect(plan, warnings);
     return warnings;
 }
 

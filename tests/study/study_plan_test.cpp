@@ -540,6 +540,19 @@ TEST_F(StudyPlan, WarnsOfScoresThatBelongToNoCondition) {
     EXPECT_THAT(plan_warnings(read_with({{"questions", {slider}}, {"layout", "single"}})), IsEmpty());
 }
 
+TEST_F(StudyPlan, ExcludesByTheLenientRuleNoMoreThanByTheStrictOne) {
+    const Plan plan = read_with({{"exclusions", {{"failed_checks", 3}}}});
+    EXPECT_EQ(plan.exclusions.lenient_failed_checks, 3u);
+    EXPECT_EQ(read_with({{"exclusions", {{"failed_checks", 1}}}}).exclusions.lenient_failed_checks, 2u);
+    EXPECT_EQ(
+        refusal_with({{"exclusions", {{"failed_checks", 3}, {"lenient_failed_checks", 2}}}}),
+        "plan.json: exclusions.lenient_failed_checks: is 2, and failed_checks 3; the lenient rule excludes no more "
+        "than the strict one");
+    EXPECT_THAT(
+        plan_warnings(read_with({{"exclusions", {{"failed_checks", 3}}}, {"checks", {{"count", 1}}}})),
+        ElementsAre(HasSubstr("exclusions: nobody can fail 3 of 1 attention checks")));
+}
+
 // "é" as one letter in the folder, and as e with an accent in the plan.
 TEST_F(StudyPlan, FindsFilesWhoseAccentsAreWrittenOtherwise) {
     std::filesystem::create_directory(folder_ / "Zo\u00e9");
