@@ -23,6 +23,7 @@
 #include "skinning/fit/resolve_interpenetration.h"
 #include "skinning/fit/restore_contacts.h"
 #include "skinning/lift/lift.h"
+#include "skinning/motion/upright.h"
 #include "skinning/quality/motion_checks.h"
 #include "skinning/shape/measure_shape.h"
 #include "skinning/signal/resample.h"
@@ -347,6 +348,7 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     note_held(report, source, rig);
     report.rest_is_twisted = source.body.rest_is_twisted;
     report.sides_look_exchanged = have_sides_exchanged(motion);
+    report.doubtful_up = doubt_of_up_axis(motion);
     report.pelvis_aside_deg = source.body.pelvis_aside_deg;
     report.chest_aside_deg = source.body.chest_aside_deg;
 

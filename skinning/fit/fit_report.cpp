@@ -254,6 +254,7 @@ Json to_json(const FitReport& report) {
                          {"hands_too_far_frames", kept->too_far}};
     }
     if (report.sides_look_exchanged) json["sides_look_exchanged"] = true;
+    if (report.doubtful_up) json["doubtful_up_axis"] = *report.doubtful_up;
     if (report.pelvis_aside_deg || report.chest_aside_deg) {
         const auto degrees = [](const std::optional<double>& angle) { return angle ? Json(*angle) : Json(); };
         json["trunk_faces_by_joints"] = {{"pelvis_was_aside_deg", degrees(report.pelvis_aside_deg)},
@@ -283,6 +284,7 @@ std::vector<std::string> warnings_of(const FitReport& report) {
             "(Unity, Unreal), it is shown mirrored; export it with right-handed axes",
             report.motion));
     }
+    if (report.doubtful_up) warnings.push_back(format("{}: {}", report.motion, *report.doubtful_up));
     if (report.contact_moves && report.contact_moves->too_far > 0) {
         warnings.push_back(format(
             "{}: in {} frames a hand is too far from what it should rest on on this avatar, and stays there",

@@ -73,6 +73,7 @@ struct FitReport {
     std::string source;                        // "joint turns", "keypoints" or "picture"
     bool rest_is_twisted = false;              // joint turns: as BodyMotion::rest_is_twisted
     bool sides_look_exchanged = false;         // joint turns: feet, face or knees contradict left and right
+    std::optional<std::string> doubtful_up{};  // what a person should look at, as doubt_of_up_axis says
     std::optional<double> pelvis_aside_deg{};  // as BodyMotion::pelvis_aside_deg
     std::optional<double> chest_aside_deg{};
     bool stands_still = false;  // it has no legs, or its upper body alone was asked for: hips face the front
@@ -106,7 +107,7 @@ struct FitReport {
 Judgement judge(const FitReport& report);
 
 // What the user should know of how the motion was read: turns of the trunk that its joints contradict, sides
-// that its feet do.
+// that its feet do, an up axis from which the trunk leans far.
 std::vector<std::string> warnings_of(const FitReport& report);
 
 // Keys carry their unit; every mean stands beside its n.

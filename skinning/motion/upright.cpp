@@ -13,71 +13,14 @@
 #include "skinning/body/body_frame.h"
 #include "skinning/body/joint_landmarks.h"
 #include "skinning/body/moving_skeleton.h"
+#include "skinning/motion/up_axis.h"
 
 namespace chironomia {
 namespace {
 
-constexpr float kClear = 0.7f;  // an axis is clear when so much of the direction lies along it (45 degrees)
-constexpr double kStandsUp = 0.2;  // ours: of the frames of a person who lies and gets up, or bends far down
+constexpr std::string_view kDoubtfulUp = "up axis in doubt: ";
+constexpr float kAtOrigin = 0.03f;   // ours: so near to it hips begin, against the height of the body
 constexpr double kMostFrames = 0.8;  // ours: of the frames of a picture that show which way a body lies
-
-constexpr std::array<std::string_view, 7> kAxisNames = {"?", "x", "y", "z", "-x", "-y", "-z"};
-
-Vec3 direction_of(UpAxis axis) {
-    Vec3 direction(0);
-    const int index = static_cast<int>(axis) - 1;
-    direction[index % 3] = index < 3 ? 1.0f : -1.0f;
-    return direction;
-}
-
-std::string_view name_of_axis(UpAxis axis) {
-    return kAxisNames[static_cast<size_t>(axis)];
-}
-
-UpAxis nearest_axis(const Vec3& direction) {
-    UpAxis nearest = UpAxis::x;
-    for (const UpAxis axis : {UpAxis::y, UpAxis::z, UpAxis::minus_x, UpAxis::minus_y, UpAxis::minus_z}) {
-        if (dot(direction, direction_of(axis)) > dot(direction, direction_of(nearest))) nearest = axis;
-    }
-    return nearest;
-}
-
-// The axis that `up` lies along clearly, if it does.
-std::optional<UpAxis> clear_axis(const std::optional<Vec3>& up) {
-    if (!up) return std::nullopt;
-    const UpAxis axis = nearest_axis(*up);
-    if (dot(*up, direction_of(axis)) < kClear) return std::nullopt;
-    return axis;
-}
-
-// How an upper body shows its up axis; shares of a unit direction along the axis.
-struct UpperBodyLimits {
-    // Ours, chosen on every other of 120 recordings of CMU (nose, neck and arms), each in nine axes and facings, where
-    // 6 of 540 up axes are wrong; of the other half 2 of 540. All eight face +y with z up, or away with y down.
-    float head = 0.35f;    // so much of the way from the shoulders to the head is upwards
-    float hangs = 0.2f;    // arms hang along another axis,
-    float clearly = 0.2f;  // by so much more than along the first
-    float alone = 0.5f;    // arms hang, and the head is not below the shoulders
-};
-constexpr UpperBodyLimits kUpperBody;
-
-// Of the axes along which the head lies above the shoulders the first of the usual ones, unless the arms hang along
-// another: the nose lies in front as much as above, so its direction alone could be up or front.
-std::optional<UpAxis> upper_body_up(const UpperBodyFrame& body) {
-    const auto above = [&](UpAxis axis) { return dot(body.head, direction_of(axis)); };
-    const auto hanging = [&](UpAxis axis) { return body.arms ? -dot(*body.arms, direction_of(axis)) : 0.0f; };
-    std::vector<UpAxis> axes;
-    for (const UpAxis axis :
-         {UpAxis::y, UpAxis::z, UpAxis::minus_y, UpAxis::minus_z, UpAxis::x, UpAxis::minus_x}) {
-        if (above(axis) >= kUpperBody.head || (above(axis) >= 0 && hanging(axis) >= kUpperBody.alone))
-            axes.push_back(axis);
-    }
-    if (axes.empty()) return std::nullopt;
-    const UpAxis most = *std::ranges::max_element(axes, {}, hanging);
-    const bool hang =
-        hanging(most) >= kUpperBody.hangs && hanging(most) > hanging(axes.front()) + kUpperBody.clearly;
-    return hang ? most : axes.front();
-}
 
 // The frames to look at: some of the first second, then some of the whole.
 struct Samples {
@@ -97,14 +40,6 @@ Samples sample_frames(const Motion& motion) {
     return samples;
 }
 
-// The share of frames in which hips and head lie along an axis.
-double share_along(const std::vector<LandmarkFrame>& frames, UpAxis axis) {
-    const auto along = std::count_if(frames.begin(), frames.end(), [&](const LandmarkFrame& frame) {
-        return clear_axis(find_body_frame({frame}, 1).up) == axis;
-    });
-    return static_cast<double>(along) / static_cast<double>(frames.size());
-}
-
 std::vector<LandmarkFrame> landmarks_of_picture(const Motion& motion) {
     const PictureTrack& picture = *motion.picture;
     KeypointTrack track{.names = picture.names, .points = {}, .confidence = picture.confidence};
@@ -112,11 +47,19 @@ std::vector<LandmarkFrame> landmarks_of_picture(const Motion& motion) {
     return landmarks_of(track, sample_frames(motion).frames);
 }
 
+// The share of frames in which hips and head lie along an axis.
+double share_of_picture(const std::vector<LandmarkFrame>& frames, UpAxis axis) {
+    const auto along = std::count_if(frames.begin(), frames.end(), [&](const LandmarkFrame& frame) {
+        return clear_axis(find_body_frame({frame}, 1).up) == axis;
+    });
+    return static_cast<double>(along) / static_cast<double>(frames.size());
+}
+
 // The direction of a picture in which a body lies in most of the frames that show it.
 std::optional<UpAxis> usual_up(const std::vector<LandmarkFrame>& frames) {
     constexpr std::array kAxes = {UpAxis::minus_y, UpAxis::y, UpAxis::x, UpAxis::minus_x};
     std::array<double, kAxes.size()> shares;
-    for (size_t i = 0; i < kAxes.size(); ++i) shares[i] = share_along(frames, kAxes[i]);
+    for (size_t i = 0; i < kAxes.size(); ++i) shares[i] = share_of_picture(frames, kAxes[i]);
     const auto most = std::ranges::max_element(shares);
     const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
     if (all == 0 || *most < kMostFrames * all) return std::nullopt;
@@ -211,7 +154,7 @@ class Upright {
     void stand_keypoints() {
         KeypointTrack& track = *motion_.keypoints;
         std::vector<LandmarkFrame> frames = landmarks_of(track, samples_.frames);
-        const UpAxis up = choose_up(frames, {});
+        const UpAxis up = choose_up({.frames = frames, .stays_in_place = begins_at_origin(frames)});
         if (mirror_if_left_handed(track, frames, up)) frames = landmarks_of(track, samples_.frames);
         Standing standing = stand(up, frames, samples_.beginning);
         face_front(standing);
@@ -244,7 +187,10 @@ class Upright {
         const std::vector<LandmarkFrame> rest = {rest_landmarks(track.skeleton)};
         const std::vector<LandmarkFrame> frames = landmarks_of(track, samples_.frames);
         const BodyFrame rest_body = find_body_frame(rest, 1);
-        const UpAxis up = choose_up(frames, rest_body.up);
+        const UpAxis up = choose_up({.frames = frames,
+                                     .rest_up = rest_body.up,
+                                     .is_model = holds_body_model(),
+                                     .stays_in_place = begins_at_rest(track)});
         Standing standing = stand(up, frames, samples_.beginning);
         face_front(standing);
         warn_if_left_handed(frames, up);
@@ -252,6 +198,11 @@ class Upright {
         const double unit = choose_unit(
             rest_body.height ? rest_body.height : find_body_frame(frames, samples_.beginning).height);
         apply(track, rest_turn, standing.turn, static_cast<float>(unit));
+    }
+
+    // What reads turns of SMPL says so first.
+    bool holds_body_model() const {
+        return !motion_.notes.empty() && motion_.notes.front().starts_with("SMPL");
     }
 
     void warn_if_left_handed(const std::vector<LandmarkFrame>& frames, UpAxis up) {
@@ -283,44 +234,29 @@ class Upright {
         return yaw_turn(yaw) * found.turn;
     }
 
-    UpAxis choose_up(const std::vector<LandmarkFrame>& frames, const std::optional<Vec3>& rest_up) {
+    UpAxis choose_up(UpEvidence evidence) {
         if (hints_.up != UpAxis::detect) {
             note(format("up axis: {}, set by hand", name_of_axis(hints_.up)));
             return hints_.up;
         }
-        const auto up = find_body_frame(frames, samples_.beginning).up;
-        const auto axis = clear_axis(up), rest_axis = clear_axis(rest_up);
-        const auto upper = find_upper_body_frame(frames);
-        if (const auto upper_axis = upper ? upper_body_up(*upper) : std::nullopt; upper_axis && !rest_axis) {
-            note(format(
-                "up axis: {} (no hips are seen; from shoulders to head, {:.0f} degrees off{}); if it is "
-                "another, set it with --up",
-                name_of_axis(*upper_axis),
-                glm::degrees(angle_between(upper->head, direction_of(*upper_axis))),
-                upper->arms && dot(*upper->arms, direction_of(*upper_axis)) < -kUpperBody.hangs
-                    ? ", and arms hang along it"
-                    : ""));
-            return *upper_axis;
-        }
-        if (const double share = rest_axis && axis != rest_axis ? share_along(frames, *rest_axis) : 0;
-            share >= kStandsUp) {
-            note(
-                format("up axis: {}, as in the rest pose; the body stands along it in {:.0f} % of the frames",
-                       name_of_axis(*rest_axis), 100 * share));
-            return *rest_axis;
-        }
-        if (axis) {
-            note(format("up axis: {} (from hips to head, {:.0f} degrees off)", name_of_axis(*axis),
-                        glm::degrees(angle_between(*up, direction_of(*axis)))));
-            return *axis;
-        }
-        if (rest_axis) {
-            note(format("up axis: {}, from the rest pose; hips and head of the motion do not show it",
-                        name_of_axis(*rest_axis)));
-            return *rest_axis;
-        }
-        note("up axis: y is taken, hips and head do not show it; set it with --up");
-        return UpAxis::y;
+        evidence.beginning = samples_.beginning;
+        const ChosenUp chosen = choose_up_axis(evidence);
+        note(chosen.note);
+        if (!chosen.doubt.empty()) note(std::string(kDoubtfulUp) + chosen.doubt);
+        return chosen.axis;
+    }
+
+    // Points that were moved so that the hips begin at the origin have no floor at 0.
+    bool begins_at_origin(const std::vector<LandmarkFrame>& frames) const {
+        const auto hip = [&](Landmark side) { return frames[0][static_cast<size_t>(side)]; };
+        const auto left = hip(Landmark::left_hip), right = hip(Landmark::right_hip);
+        const auto height = find_body_frame(frames, 1).height;
+        return left && right && height && length(*left + *right) / 2 <= kAtOrigin * *height;
+    }
+
+    static bool begins_at_rest(const JointTrack& track) {
+        const Vec3 place = track.translations[0], rest = track.skeleton.joints[0].rest.translation;
+        return place == rest || place == Vec3(0);
     }
 
     // Adds the turn about +y to `standing.turn`.
@@ -416,6 +352,12 @@ class Upright {
 
 Motion stand_upright(Motion motion, const MotionHints& hints) {
     return Upright(std::move(motion), hints).run();
+}
+
+std::optional<std::string> doubt_of_up_axis(const Motion& motion) {
+    for (const std::string& note : motion.notes)
+        if (note.starts_with(kDoubtfulUp)) return note.substr(kDoubtfulUp.size());
+    return std::nullopt;
 }
 
 Motion stand_picture_upright(Motion motion, UpAxis up) {

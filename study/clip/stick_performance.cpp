@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/motion/upright.h"
 #include "skinning/stick/stick.h"
 
 namespace chironomia::study {
@@ -53,6 +54,8 @@ Performance perform_stick(const Performer& performer, const PerformerMotions& mo
     performance.companions = motions.companions();
     performance.notes = motions.body->notes;
     performance.warnings = motions.warnings;
+    if (const auto doubt = doubt_of_up_axis(*motions.body))
+        performance.warnings.push_back(format("{}: {}", motions.body->source, *doubt));
     if (!hands) performance.modes.push_back(format("hands {}", to_text(HandsMode::hidden)));
     if (!face) performance.modes.push_back(format("face {}", to_text(FaceMode::mask)));
     if (motions.body->face) {

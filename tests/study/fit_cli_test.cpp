@@ -64,6 +64,35 @@ TEST(FitCli, AGoodMotionIsFitToShow) {
     EXPECT_EQ(outcome.err, "");
 }
 
+// A person who bows throughout is shown bowing, and fit and render say so.
+TEST(FitCli, WarnsOfATrunkThatLeansFar) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "bow.json";
+    std::string frames;
+    for (int t = 0; t < 30; ++t) {
+        frames += format(
+            "{}[[0.18, 1.1, 0.48], [-0.18, 1.1, 0.48], [0.2, 0.82, 0.48], [-0.2, 0.82, 0.48], [0.2, 0.58, 0.5], "
+            "[-0.2, 0.58, 0.5], [0.1, 0.9, 0], [-0.1, 0.9, 0], [0.1, 0.48, 0], [-0.1, 0.48, 0], "
+            "[0.1, 0.07, 0], [-0.1, 0.07, 0], [0, 1.05, 0.7]]",
+            t == 0 ? "" : ", ");
+    }
+    write_text(file, format(R"({{"fps": 30, "names": ["left_shoulder", "right_shoulder", "left_elbow",
+                               "right_elbow", "left_wrist", "right_wrist", "left_hip", "right_hip", "left_knee",
+                               "right_knee", "left_ankle", "right_ankle", "nose"], "frames": [{}]}})",
+                            frames));
+    const std::string warning =
+        "bow.json: y was taken for up, from which the trunk leans by 78 degrees in the median of the frames; if "
+        "nobody bows, crawls or lies there, set --up";
+    EXPECT_THAT(fit({file.string()}).err, HasSubstr(warning));
+    for (const char* avatar : {"neutral", "stick"}) {
+        const Outcome render =
+            run_chironomia({"render", "--quiet", "--motion", file.string(), "--avatar", avatar, "--size",
+                            "64x64", "--frames", "0:1", "--out", (folder / avatar / "%03d.png").string()});
+        EXPECT_EQ(render.exit_code, 0) << render.err;
+        EXPECT_THAT(render.err, HasSubstr(warning));
+    }
+}
+
 TEST(FitCli, ATPoseIsNot) {
     const TemporaryFolder folder;
     write_person(folder / "t.json", true);

@@ -70,6 +70,7 @@ int run(const FitCommand& command) {
     }
     print(command.json ? to_json(fitted).dump(2) + "\n" : to_text(fitted));
     for (const FittedClip& clip : fitted.clips) {
+        warn(warnings_of(clip.report));
         if (!clip.error.empty()) std::fputs(format("chironomia: {}\n", clip.error).c_str(), stderr);
     }
     if (fitted.broken() > 0) return kExitWrongInput;

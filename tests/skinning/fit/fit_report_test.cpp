@@ -107,6 +107,14 @@ TEST(WarningsOf, NameSidesThatLookExchanged) {
     EXPECT_EQ(to_json(report)["sides_look_exchanged"], true);
 }
 
+TEST(WarningsOf, NameAnUpAxisInDoubt) {
+    FitReport report;
+    report.motion = "a.bvh";
+    report.doubtful_up = "y was taken for up";
+    EXPECT_EQ(warnings_of(report), std::vector<std::string>({"a.bvh: y was taken for up"}));
+    EXPECT_EQ(to_json(report)["doubtful_up_axis"], "y was taken for up");
+}
+
 TEST(ToJson, NamesEveryUnitAndCount) {
     FitReport report{.motion = "a.bvh", .avatar = "b.glb", .source = "joint turns", .frames = 2, .fps = 30};
     report.direction_deg = {{"left_upper_arm", spread_of({1, 3})}};

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/files/files.h"
 #include "skinning/body/joint_landmarks.h"
 #include "skinning/motion/bvh/bvh.h"
@@ -12,6 +14,7 @@
 namespace chironomia {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
@@ -104,6 +107,82 @@ TEST(UprightMotion, LetsAPersonGetUp) {
     EXPECT_THAT(after.notes,
                 Contains(HasSubstr("up axis: y, as in the rest pose; the body stands along it in ")));
     expect_same_places(landmarks_of(*after.joints, {2})[0], landmarks_of(*figure().joints, {2})[0]);
+}
+
+// The figure with its hips turned about x by `deg`, and its spine back by so much if it bows from the hips.
+Motion leaning(float deg, bool bows) {
+    Motion motion = figure();
+    const size_t count = motion.joints->skeleton.joints.size();
+    const Quat lean = glm::angleAxis(radians(deg), Vec3(1, 0, 0));
+    for (size_t t = 0; t < motion.frames; ++t) {
+        motion.joints->turns[t * count + (bows ? 1 : 0)] = lean;
+        motion.joints->translations[t * count].x += 0.05f;  // not where the rest pose is
+    }
+    return motion;
+}
+
+Motion points_of(const Motion& joints) {
+    Motion motion{.source = "made", .fps = joints.fps, .frames = joints.frames, .keypoints = KeypointTrack{}};
+    std::vector<size_t> frames;
+    for (size_t t = 0; t < joints.frames; ++t) frames.push_back(t);
+    const auto places = landmarks_of(*joints.joints, frames);
+    for (size_t l = 0; l < places[0].size(); ++l)
+        if (places[0][l]) motion.keypoints->names.emplace_back(name_of(static_cast<Landmark>(l)));
+    for (const LandmarkFrame& frame : places) {
+        for (const auto& place : frame)
+            if (place) motion.keypoints->points.push_back(*place);
+    }
+    motion.keypoints->confidence.assign(motion.keypoints->points.size(), 1);
+    return motion;
+}
+
+bool stands_along_y(const Motion& motion) {
+    return std::ranges::any_of(motion.notes,
+                               [](const std::string& note) { return note.starts_with("up axis: y"); });
+}
+
+// A bow, and a body that lies on its front or its back in the air all the time, keep y as their up axis, with and
+// without a rest pose, and a note says what to look at.
+TEST(UprightMotion, LetsAPersonBowAndLie) {
+    for (const auto& [deg, bows] :
+         {std::pair(75.0f, true), {90.0f, false}, {-90.0f, false}, {60.0f, false}}) {
+        SCOPED_TRACE(::testing::Message() << deg << " " << bows);
+        for (const Motion& motion : {leaning(deg, bows), points_of(leaning(deg, bows))}) {
+            const Motion after = stand_upright(motion, {});
+            EXPECT_TRUE(stands_along_y(after)) << ::testing::PrintToString(after.notes);
+            ASSERT_TRUE(doubt_of_up_axis(after));
+            EXPECT_THAT(
+                *doubt_of_up_axis(after),
+                AllOf(HasSubstr("y was taken for up, from which the trunk leans by "),
+                      HasSubstr(" degrees in the median of the frames; if nobody bows, crawls or lies "
+                                "there, set --up")));
+        }
+    }
+}
+
+// What stands on a floor at 0 along z stands there, whatever its rest pose says, and so do points whose hips are the
+// origin.
+TEST(UprightMotion, LetsTheFloorDecide) {
+    const Quat z_up = turn_between(Vec3(0, 1, 0), Vec3(0, 0, 1));
+    const Motion joints = stand_upright(figure_in(kNoTurn, z_up, 1), {});
+    EXPECT_FALSE(stands_along_y(joints));
+    EXPECT_EQ(doubt_of_up_axis(joints),
+              "z was taken for up, but the rest pose stands along y; if somebody lies there, set --up y");
+    Motion points = points_of(figure_in(z_up, z_up, 1));
+    EXPECT_FALSE(stands_along_y(stand_upright(points, {})));
+    EXPECT_EQ(doubt_of_up_axis(stand_upright(points, {})), std::nullopt);
+    for (Vec3& place : points.keypoints->points) place -= Vec3(0, 0, 0.85f);
+    EXPECT_FALSE(stands_along_y(stand_upright(points, {})));
+}
+
+// On the back for two thirds of the time, then on both feet.
+TEST(UprightMotion, LetsPointsGetUp) {
+    Motion motion = leaning(0, false);
+    motion.fps = 1;
+    for (const size_t t : {0, 1})
+        motion.joints->turns[t * motion.joints->skeleton.joints.size()] =
+            glm::angleAxis(-kPi / 2, Vec3(1, 0, 0));
+    EXPECT_TRUE(stands_along_y(stand_upright(points_of(motion), {})));
 }
 
 TEST(UprightMotion, KeepsTheTurnsOfAllJointsButTheRoot) {
