@@ -47,7 +47,6 @@ struct Farthest {
     double head = 1.2, face = 0.35, middle = 0.35, part = 0.5, limb = 0.7;
 };
 constexpr Farthest kFarthest;
-constexpr size_t kFewestChecks = 6;
 
 // Frames of a picture, and how often parts of a body lie where they should not.
 class OddPlaces {
@@ -58,7 +57,7 @@ class OddPlaces {
         for (size_t t = 0; t < frames; t += frames / kMostLooks + 1) look_at(t * points);
     }
 
-    std::optional<double> run() const {
+    std::optional<double> run(size_t fewest) const {
         double sum = 0;
         size_t checks = 0;
         // Whichever way the picture lies, it is one way for all parts.
@@ -72,7 +71,7 @@ class OddPlaces {
         checks += order_.size();
         for (const auto& [name, share] : far_) sum += share.odd[0] / share.seen;
         checks += far_.size();
-        if (checks < kFewestChecks) return std::nullopt;
+        if (checks < fewest) return std::nullopt;
         return sum / static_cast<double>(checks);
     }
 
@@ -235,8 +234,8 @@ std::optional<double> left_of_changes(const KeypointTrack& track) {
     return deep / flat;
 }
 
-std::optional<double> odd_places(const KeypointTrack& track) {
-    return OddPlaces(track).run();
+std::optional<double> odd_places(const KeypointTrack& track, size_t fewest) {
+    return OddPlaces(track).run(fewest);
 }
 
 std::optional<double> odd_bones(const KeypointTrack& track, Seen seen) {
@@ -260,6 +259,17 @@ std::optional<double> odd_bones(const KeypointTrack& track, Seen seen) {
     for (size_t i = 0; i < ratios.size(); ++i)
         odd += stretches[i] || !(std::abs(ratios[i] - usual) <= std::log(kOdd));
     return static_cast<double>(odd) / static_cast<double>(ratios.size());
+}
+
+std::optional<double> scale_of_bones(const KeypointTrack& track) {
+    std::vector<double> ratios;
+    for_all_bones([&](const Bone& bone) {
+        std::vector<double> lengths;
+        for (const Vec3& way : ways_of(track, bone)) lengths.push_back(static_cast<double>(length(way)));
+        if (!lengths.empty()) ratios.push_back(median(std::move(lengths)) / bone.length);
+    });
+    if (ratios.size() < kEnough) return std::nullopt;
+    return median(std::move(ratios));
 }
 
 }  // namespace chironomia

@@ -26,12 +26,15 @@ struct BodyLengths {
 enum class Seen { in_space, in_picture };
 std::optional<double> odd_bones(const KeypointTrack& track, Seen seen = Seen::in_space);
 
+// How large a body is against an adult's, by the median of the same bones; nothing if fewer than four are seen.
+std::optional<double> scale_of_bones(const KeypointTrack& track);
+
 // How often points of a picture lie where those of a body do not, in [0, 1]: the mean, over what is seen of it, of the
 // share of frames in which the nose is not above the shoulders, they not above the hips, these not above the knees or
 // the knees not above the ankles, in whichever of four ways the picture lies; or in which eyes and ears are far from
 // the nose, the neck from the shoulders, the pelvis from the hips, the spine from both, toes and heels from the ankles,
-// hands from the wrists. Nothing if less than six of these are seen.
-std::optional<double> odd_places(const KeypointTrack& track);
+// hands from the wrists. Nothing if less than `fewest` of these are seen.
+std::optional<double> odd_places(const KeypointTrack& track, size_t fewest = 6);
 
 // Above this sum of odd_places and odd_bones no body is meant in a picture; and another order of points is meant than
 // the usual one if its sum is lower by so much. Ours, chosen on every other of 120 recordings of CMU, seen by a camera

@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kUnitLength = 0.01;  // ours: of quaternions with few digits
+
 constexpr std::array<std::string_view, 14> kUsualNames = {
     "keypoints", "keypoints3d", "keypoints_3d", "poses3d", "poses_3d", "joints", "joints3d",
     "joints_3d", "positions",   "positions_3d", "points",  "xyz",      "data",   ""};
@@ -155,6 +157,10 @@ std::string remedy_without_points(const std::vector<NumpyArray>& arrays) {
         }
         if (array.shape[1] == 322)
             return "322 numbers a frame are those of Motion-X; save the first 156, turns as SMPL-H has them";
+        if (array.shape[1] == 265) {
+            return "265 numbers a frame are those of TalkSHOW, whose turns of jaw and eyes come first; save "
+                   "numpy.concatenate([a[:, 9:75], a[:, :9], a[:, 75:165]], 1), turns as SMPL-X has them";
+        }
     }
     return "turns of SMPL are read as axes times angles, (T, 165), (T, 156), (T, 72) or (T, 66)";
 }
@@ -212,8 +218,22 @@ void refuse_movenet(const NumpyArray& array, const Layout& layout, const std::st
                where, describe(array)));
 }
 
+// Four numbers of a joint may be a turn, x, y, z and w in any order; places and confidences are no unit vectors.
+void refuse_quaternions(const NumpyArray& array, const Layout& layout, const std::string& where) {
+    if (layout.columns != 4) return;
+    for (size_t i = 0; i + 4 <= array.numbers.size(); i += 4) {
+        const double* q = array.numbers.data() + i;
+        if (!(std::abs(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) - 1) < kUnitLength)) return;
+    }
+    throw Error(format(
+        "{}: the four numbers of every point of {} make 1 as those of quaternions, so they are turns and not "
+        "x, y, z and a confidence; save the places of joints, (T, {}, 3), or turns as SMPL or BVH has them",
+        where, describe(array), layout.points));
+}
+
 void take_places(KeypointData& data, const NumpyArray& array, const Layout& layout) {
     refuse_movenet(array, layout, data.where);
+    refuse_quaternions(array, layout, data.where);
     data.frames = layout.frames;
     data.points = layout.points;
     data.picture = layout.columns == 2;

@@ -199,8 +199,43 @@ void take_timing(KeypointData& data, const CsvTable& table, const std::vector<co
     }
 }
 
+// The columns of x, y, z and w of every point that has a w.
+std::vector<std::array<size_t, 4>> find_fourths(const CsvTable& table,
+                                                const std::vector<PointColumns>& points) {
+    std::vector<std::array<size_t, 4>> all;
+    for (size_t i = 0; i < table.columns.size(); ++i) {
+        const std::string& column = table.columns[i];
+        const size_t at = column.find_last_of(kSeparators);
+        if (at == std::string::npos || to_lower(column.substr(at + 1)) != "w") continue;
+        const std::string name(trim(std::string_view(column).substr(0, at)));
+        for (const PointColumns& point : points) {
+            const auto& c = point.columns;
+            if (point.name == name && c[2] >= 0) all.push_back({size_t(c[0]), size_t(c[1]), size_t(c[2]), i});
+        }
+    }
+    return all;
+}
+
+// Columns NAME_w beside x, y and z are the fourth numbers of quaternions, if all four make 1 everywhere.
+void refuse_quaternion_columns(const CsvTable& table, const std::vector<PointColumns>& points) {
+    const auto fourths = find_fourths(table, points);
+    if (fourths.empty()) return;
+    for (const CsvRow& row : table.rows) {
+        for (const auto& columns : fourths) {
+            double sum = 0;
+            for (const size_t c : columns) sum += std::pow(parse_number(row.cells[c]).value_or(0), 2);
+            if (!(std::abs(std::sqrt(sum) - 1) < 0.01)) return;
+        }
+    }
+    throw Error(format(
+        "{}: x, y, z and w of all points that have a w (the first is \"{}\") make 1 in every row as those of "
+        "quaternions, so they are turns and no places; export the places of joints, or turns as BVH",
+        table.where, table.columns[fourths[0][3]]));
+}
+
 KeypointData read_wide(const CsvTable& table) {
     const std::vector<PointColumns> points = find_points(table);
+    refuse_quaternion_columns(table, points);
     if (points.empty()) {
         throw Error(format(
             "{}: no columns NAME_x, NAME_y, NAME_z or x_NAME, y_NAME, z_NAME, nor frame, name, x, y, z; "

@@ -13,12 +13,16 @@
 #include "skinning/body/body_proportions.h"
 #include "skinning/body/joint_landmarks.h"
 #include "skinning/body/keypoint_layout.h"
+#include "skinning/body/odd_arrangement.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kAtHips = 0.1;       // ours: hips may lie so far from MediaPipe's origin [m]
-constexpr double kFarthest = 1e9;     // [the file's unit]; what is not nearer is no place
+constexpr double kAtHips = 0.1;    // ours: hips may lie so far from MediaPipe's origin [m]
+constexpr double kFarthest = 1e9;  // [the file's unit]; what is not nearer is no place
+// Of rows that models put out: an upper body has few parts, and its forearms may point to the camera throughout.
+constexpr size_t kFewestOfRows = 3;
+constexpr double kTooOddRows = 0.6;   // ours: of odd_bones and odd_places together
 constexpr size_t kFewestFrames = 10;  // ours: fewer may show a body in any posture
 
 std::string known_layouts(bool picture) {
@@ -171,6 +175,52 @@ PointNaming name_picture_by_count(const KeypointData& data, const std::vector<Ke
     return *best;
 }
 
+// Bones to points that nobody filled say nothing.
+KeypointTrack without_zeros(const KeypointData& data, PointNaming naming) {
+    naming.zero_is_missing = true;
+    return TrackMaker(data, naming).run();
+}
+
+// How far points in space are from a body under their names; nothing: too little is seen to know.
+struct BodyOdds {
+    std::optional<double> bones{}, places{};
+
+    bool are_too_odd() const {
+        return bones.value_or(0) >= kTooOdd || places.value_or(0) >= kTooOddArrangement;
+    }
+
+    std::string what() const {
+        if (bones.value_or(0) >= kTooOdd) {
+            return format(
+                "{:.0f} % of their bones are much longer or shorter than those of a body, or change their "
+                "lengths",
+                100 * *bones);
+        }
+        return format(
+            "{:.0f} % of their parts are far from their neighbours, on the wrong side of them, or longer on one "
+            "side of the body",
+            100 * places.value_or(0));
+    }
+};
+
+BodyOdds odds_of(const KeypointData& data, const PointNaming& naming) {
+    const KeypointTrack track = without_zeros(data, naming);
+    return {.bones = odd_bones(track), .places = odd_arrangement(track)};
+}
+
+// Numbers that are called like points may be turns or velocities of joints.
+void refuse_odd_body(const KeypointData& data, const PointNaming& naming) {
+    if (data.picture || data.in_space || data.known_order || data.names.empty()) return;
+    BodyOdds odds = odds_of(data, naming);
+    // Turns of joints that do not move are 0 as well.
+    if (!odds.bones && !naming.zero_is_missing) odds.bones = odd_bones(TrackMaker(data, naming).run());
+    if (!odds.are_too_odd()) return;
+    throw Error(format(
+        "{}: the points by their names make no body: {}; give places, not turns or velocities, or name "
+        "the points with --names",
+        data.where, odds.what()));
+}
+
 // Of the layouts with so many points the one whose bones are those of a body.
 PointNaming name_by_count(const KeypointData& data) {
     const std::vector<KeypointLayout> layouts = layouts_by_count(data);
@@ -186,22 +236,17 @@ PointNaming name_by_count(const KeypointData& data) {
     double least = 0;
     for (const KeypointLayout& layout : layouts) {
         PointNaming naming = naming_of(layout, format("keypoints: {}, by the number of points", layout.name));
-        PointNaming without_zeros = naming;  // bones to points that nobody filled say nothing
-        without_zeros.zero_is_missing = true;
-        const std::optional<double> odd = odd_bones(TrackMaker(data, without_zeros).run());
+        const std::optional<double> odd = odd_bones(without_zeros(data, naming));
         if (layouts.size() > 1 && !odd) continue;
         if (best && odd.value_or(0) >= least) continue;
         least = odd.value_or(0);
         best = std::move(naming);
     }
-    if (!best) refuse_order(data, layouts, "too few arms, legs, shoulders and hips are seen to know which");
-    if (least >= kTooOdd) {
-        refuse_order(
-            data, layouts,
-            format("{:.0f} % of their bones are much longer or shorter than those of a body, or change their "
-                   "lengths: the points have another order, or they are no places",
-                   100 * least));
-    }
+    const BodyOdds odds = best ? odds_of(data, *best) : BodyOdds();
+    if (!odds.bones && !odds.places)
+        refuse_order(data, layouts, "too few arms, legs, shoulders and hips are seen to know which");
+    if (odds.are_too_odd())
+        refuse_order(data, layouts, odds.what() + ": the points have another order, or they are no places");
     return *best;
 }
 
@@ -415,8 +460,27 @@ void simplify_names(std::vector<std::string>& names) {
     for (std::string& name : names) name.erase(0, prefix.size());
 }
 
+// Rows that are as wide as those of a body in a picture may hold something else, such as 52 weights of a face.
+void refuse_odd_rows(const KeypointData& data, PointNaming naming) {
+    if (!data.picture || data.frames < kFewestFrames) return;
+    naming.zero_is_missing = false;
+    const KeypointTrack track = TrackMaker(data, naming).run();
+    const auto bones = odd_bones(track, Seen::in_picture), places = odd_places(track, kFewestOfRows);
+    if (!bones || *bones + places.value_or(0) < kTooOddRows) return;
+    throw Error(format(
+        "{}: {} numbers a frame are by their number those of {} points in a picture, but they do not lie as those "
+        "of a body (bones as long as an adult's, the nose above the shoulders, eyes near it, hands near the "
+        "wrists); if they are weights of ARKit or others of a face, give them as .csv or .json with their "
+        "names",
+        data.where, 2 * data.points, data.points));
+}
+
 PointNaming choose_naming(KeypointData& data, const std::filesystem::path& name_map) {
-    if (!data.ours.empty()) return {.names = data.ours, .how = ""};
+    if (!data.ours.empty()) {
+        PointNaming rows{.names = data.ours, .how = ""};
+        refuse_odd_rows(data, rows);
+        return rows;
+    }
     if (data.names.empty() && name_map.empty()) return name_by_count(data);
     for (size_t k = 0; data.names.size() < data.points; ++k) data.names.push_back(format("{}", k));
     if (!name_map.empty()) return name_by_map(data, name_map);
@@ -452,6 +516,7 @@ PointNaming find_naming(KeypointData& data, const std::filesystem::path& name_ma
     take_shares_for_picture(data);
     PointNaming naming = choose_naming(data, name_map);
     check_naming(data, naming);
+    refuse_odd_body(data, naming);
     return naming;
 }
 

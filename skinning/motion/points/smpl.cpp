@@ -8,13 +8,15 @@
 #include "core/text.h"
 #include "skinning/body/body_proportions.h"
 #include "skinning/body/keypoint_layout.h"
+#include "skinning/body/odd_arrangement.h"
 
 namespace chironomia {
 namespace {
 
-constexpr double kMostTurn = 1e3;   // beyond it a file is damaged [rad]
-constexpr double kMostPlace = 1e6;  // the same [m]
-constexpr float kAllRound = 6.5f;   // a turn and a little, for rounding [rad]
+constexpr double kMostTurn = 1e3;         // beyond it a file is damaged [rad]
+constexpr double kMostPlace = 1e6;        // the same [m]
+constexpr double kSameRateOfSmpl = 0.01;  // ours; 29.97 and 30 are the same
+constexpr float kAllRound = 6.5f;         // a turn and a little, for rounding [rad]
 
 struct ModelJoint {
     std::string_view name;
@@ -134,13 +136,18 @@ constexpr std::array<PosePart, 12> kPoseParts = {{
     {"pose_hand", 25, 30},
 }};
 
-const NumpyArray* find_poses(const std::vector<NumpyArray>& arrays) {
-    return find_named_array(arrays, {"poses", "smpl_poses"});
-}
-
 bool has_pose_parts(const std::vector<NumpyArray>& arrays) {
     return find_named_array(arrays, {"global_orient", "root_orient"}) &&
            find_named_array(arrays, {"body_pose", "pose_body"});
+}
+
+// The turns of all joints in one array, as AMASS calls them; or by other names, which places may have as well.
+const NumpyArray* find_poses(const std::vector<NumpyArray>& arrays) {
+    if (const NumpyArray* poses = find_named_array(arrays, {"poses", "smpl_poses"})) return poses;
+    if (has_pose_parts(arrays)) return nullptr;
+    const NumpyArray* other =
+        find_named_array(arrays, {"fullpose", "smpl_pose", "thetas", "theta", "pose_aa", "pose"});
+    return other && are_turns(*other) ? other : nullptr;
 }
 
 // (..., 3, 3) rotation matrices as turns about axes, others as they are.
@@ -232,10 +239,52 @@ KeypointTrack taken_for_places(const NumpyArray& poses, size_t joints) {
     return track;
 }
 
+// The 22 joints as other programs list them: legs before the trunk (LaFAN1), or the trunk before arms and legs (most
+// hierarchies), from the left or from the right.
+constexpr std::array<size_t, 22> kLegsFirst = {0, 1,  4,  7,  10, 2,  5,  8,  11, 3,  6,
+                                               9, 12, 15, 13, 16, 18, 20, 14, 17, 19, 21};
+constexpr std::array<size_t, 22> kTrunkFirst = {0,  3,  6,  9, 12, 15, 13, 16, 18, 20, 14,
+                                                17, 19, 21, 1, 4,  7,  10, 2,  5,  8,  11};
+
+// Whether the numbers are places of a body in one of these orders.
+bool is_body_in_other_order(const KeypointTrack& places) {
+    for (const auto& order : {kLegsFirst, kTrunkFirst}) {
+        for (const bool right_first : {false, true}) {
+            KeypointTrack track = places;
+            for (size_t j = 0; j < order.size(); ++j) {
+                const std::string& name = places.names[order[j]];
+                const auto landmark = right_first ? landmark_named(name) : std::nullopt;
+                track.names[j] = landmark ? std::string(name_of(mirrored(*landmark))) : name;
+            }
+            if (odd_bones(track).value_or(1) < kTooOdd &&
+                odd_arrangement(track).value_or(1) < kTooOddArrangement)
+                return true;
+        }
+    }
+    return false;
+}
+
+const std::initializer_list<std::string_view> kRateNames = {"mocap_frame_rate", "mocap_framerate", "fps",
+                                                            "frame_rate", "framerate"};
+
+// Where arrays of one file give different rates, the first of them is taken.
+std::optional<std::string> note_of_other_rate(const std::vector<NumpyArray>& arrays) {
+    const NumpyArray* rate = find_named_array(arrays, kRateNames);
+    if (!rate || rate->numbers.size() != 1) return std::nullopt;
+    for (const std::string_view name : kRateNames) {
+        const NumpyArray* other = find_named_array(arrays, {name});
+        if (!other || other->numbers.size() != 1) continue;
+        if (std::abs(other->numbers[0] - rate->numbers[0]) <= kSameRateOfSmpl * rate->numbers[0]) continue;
+        return format(
+            "rates: {} is {:.6g} and {} is {:.6g} frames/s; {} counts; set --motion-fps if it is wrong",
+            rate->name, rate->numbers[0], other->name, other->numbers[0], rate->name);
+    }
+    return std::nullopt;
+}
+
 double rate_of(const std::vector<NumpyArray>& arrays, const std::string& where, std::optional<double> fps) {
     if (fps) return *fps;
-    const NumpyArray* rate =
-        find_named_array(arrays, {"mocap_frame_rate", "mocap_framerate", "fps", "frame_rate", "framerate"});
+    const NumpyArray* rate = find_named_array(arrays, kRateNames);
     if (!rate || rate->numbers.size() != 1)
         throw Error(format("{}: the file does not give its rate; set it with --motion-fps", where));
     if (!(rate->numbers[0] > 0 && std::isfinite(rate->numbers[0]))) {
@@ -290,7 +339,8 @@ bool are_turns(const NumpyArray& array) {
     const KeypointTrack places = taken_for_places(array, joints);
     const bool near = std::all_of(places.points.begin(), places.points.end(),
                                   [](const Vec3& turn) { return !(length(turn) > kAllRound); });
-    return near && odd_bones(places).value_or(0) >= kTooOdd && count_rigid_pairs(places) < kFewestBones;
+    return near && odd_bones(places).value_or(0) >= kTooOdd && count_rigid_pairs(places) < kFewestBones &&
+           !is_body_in_other_order(places);
 }
 
 bool holds_smpl(const std::vector<NumpyArray>& arrays) {
@@ -338,6 +388,7 @@ Motion motion_of_smpl(const std::vector<NumpyArray>& arrays, const std::string& 
     }
     for (std::string& note : left_out(arrays)) motion.notes.push_back(std::move(note));
     motion.notes.push_back(format("rate: {:.6g} frames/s{}", motion.fps, fps ? ", set by hand" : ""));
+    if (auto note = fps ? std::nullopt : note_of_other_rate(arrays)) motion.notes.push_back(std::move(*note));
     return motion;
 }
 

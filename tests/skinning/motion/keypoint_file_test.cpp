@@ -858,7 +858,10 @@ TEST(KeypointFile, RefusesArraysThatAreAmbiguous) {
         {263,
          "263 numbers a frame are features of HumanML3D or KIT-ML; save the joints, (T, 22, 3), that its"},
         {251, "save the joints, (T, 21, 3), that its recover_from_ric makes of them"},
-        {322, "322 numbers a frame are those of Motion-X; save the first 156, turns as SMPL-H has them"}};
+        {322, "322 numbers a frame are those of Motion-X; save the first 156, turns as SMPL-H has them"},
+        {265,
+         "265 numbers a frame are those of TalkSHOW, whose turns of jaw and eyes come first; save "
+         "numpy.concatenate([a[:, 9:75], a[:, :9], a[:, 75:165]], 1), turns as SMPL-X has them"}};
     for (const auto& [size, remedy] : features) {
         testing::write_npy(folder / "features.npy", {2, size}, std::vector<double>(2 * size));
         EXPECT_THAT(refusal_of([&] { read_motion(folder / "features.npy", {.fps = 30}); }),

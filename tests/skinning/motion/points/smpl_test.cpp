@@ -16,7 +16,9 @@ namespace chironomia {
 namespace {
 
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::refusal_of;
 using testing::test_file;
 
@@ -55,6 +57,44 @@ TEST(ReadSmpl, BendsAnElbowByItsOwnThreeNumbers) {
     EXPECT_LT(distance(down, Vec3(0.25f, 0, 0)), 1e-5f);
     EXPECT_LT(distance(up, Vec3(0, 0.25f, 0)), 1e-5f);
     EXPECT_EQ(place(motion, 1, "right_wrist"), place(motion, 0, "right_wrist"));
+}
+
+// SMPLify, GRAB and others call the turns otherwise; places of a body under such a name stay places.
+TEST(ReadSmpl, KnowsOtherNamesOfTheTurns) {
+    for (const char* name : {"fullpose", "smpl_pose", "thetas", "theta", "pose_aa", "pose"}) {
+        SCOPED_TRACE(name);
+        std::vector<NumpyArray> arrays = standing(72);
+        arrays[0].name = name;
+        arrays[0].numbers[72 + 3 * 18 + 2] = kQuarter;
+        ASSERT_TRUE(holds_smpl(arrays));
+        const Motion motion = motion_of_smpl(arrays, "a.npz", {});
+        const Vec3 up = place(motion, 1, "left_wrist") - place(motion, 1, "left_elbow");
+        EXPECT_LT(distance(up, Vec3(0, 0.25f, 0)), 1e-5f);
+        std::vector<double>& numbers = arrays[0].numbers;
+        numbers.clear();
+        const Motion still = motion_of_smpl(standing(72), "a.npz", {});
+        for (size_t t = 0; t < 2; ++t) {
+            for (const Joint& joint : still.joints->skeleton.joints) {
+                const Vec3 at = place(still, t, joint.name);
+                numbers.insert(numbers.end(), {double(at.x), double(at.y), double(at.z)});
+            }
+        }
+        EXPECT_FALSE(holds_smpl(arrays));
+    }
+}
+
+TEST(ReadSmpl, NotesRatesThatDiffer) {
+    std::vector<NumpyArray> arrays = standing(72);
+    arrays.push_back({.name = "fps", .type = "<i8", .shape = {}, .numbers = {120}});
+    const Motion motion = motion_of_smpl(arrays, "a.npz", {});
+    EXPECT_EQ(motion.fps, 30);
+    EXPECT_THAT(
+        motion.notes,
+        Contains("rates: mocap_frame_rate is 30 and fps is 120 frames/s; mocap_frame_rate counts; set "
+                 "--motion-fps if it is wrong"));
+    arrays.back().numbers = {29.97};
+    EXPECT_THAT(motion_of_smpl(arrays, "a.npz", {}).notes, Each(Not(HasSubstr("rates: "))));
+    EXPECT_THAT(motion_of_smpl(arrays, "a.npz", 25).notes, Each(Not(HasSubstr("rates: "))));
 }
 
 TEST(ReadSmpl, CarriesThePelvisWithTheBody) {
