@@ -241,7 +241,8 @@ class UpAxisChoice {
                 "frames; if nobody bows, crawls or lies there, set --up",
                 name_of_axis(axis), lean);
         }
-        if (!rest_ || evidence_.is_model || *rest_ == axis) return "";
+        // LaFAN1 rests along x; who stands on a floor stands.
+        if (!rest_ || evidence_.is_model || *rest_ == axis || has_floor(axis)) return "";
         return format(
             "{} was taken for up, but the rest pose stands along {}; if somebody lies there, set --up {}",
             name_of_axis(axis), name_of_axis(*rest_), name_of_axis(*rest_));

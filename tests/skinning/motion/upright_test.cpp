@@ -166,7 +166,11 @@ TEST(UprightMotion, LetsTheFloorDecide) {
     const Quat z_up = turn_between(Vec3(0, 1, 0), Vec3(0, 0, 1));
     const Motion joints = stand_upright(figure_in(kNoTurn, z_up, 1), {});
     EXPECT_FALSE(stands_along_y(joints));
-    EXPECT_EQ(doubt_of_up_axis(joints),
+    EXPECT_EQ(doubt_of_up_axis(joints), std::nullopt);
+    Motion sunk = figure_in(kNoTurn, z_up, 1);
+    for (size_t t = 0; t < sunk.frames; ++t)
+        sunk.joints->translations[t * sunk.joints->skeleton.joints.size()] -= Vec3(0, 3, 3);
+    EXPECT_EQ(doubt_of_up_axis(stand_upright(sunk, {})),
               "z was taken for up, but the rest pose stands along y; if somebody lies there, set --up y");
     Motion points = points_of(figure_in(z_up, z_up, 1));
     EXPECT_FALSE(stands_along_y(stand_upright(points, {})));
