@@ -6,7 +6,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from . import eyes, face, fitting, folds, glb, hair, lids, paint, rig, surface
+from . import eyes, face, fitting, folds, glb, hair, hems, lids, paint, rig, surface
 from . import person as persons
 
 
@@ -21,6 +21,8 @@ TEETH_LIT, TEETH_FADE, TEETH_DARK = 0.007, 0.015, 0.10  # [m], [m], share of lig
 TEETH_REDDEN = (1.0, 1.35, 1.45)  # powers of that share: light that is left has met the inside of the mouth
 TEETH_SPECULAR = 0.4  # of a surface in the open, so that dark teeth do not shine like metal; ours, by eye
 TONGUE_TINT = (1.05, 0.87, 0.85)  # its back is else a dull brown in an open mouth; ours, by eye
+# Of a vertex whose normal is further forward than this, so that the backs of teeth are thinned; ours, by eye.
+TEETH_FRONT_PRICE, TEETH_BACKWARD = 30.0, -0.4
 TEETH_FROM, GUMS_FROM = 0.106, 0.088  # [m, base mesh] what lies behind is never seen
 
 
@@ -31,7 +33,10 @@ CLOTH_REACH = 0.05  # [m] a cloth lies no further from the skin that it covers
 
 
 SKIN_TRIANGLES = 13300
-SHOULDER = 0.08  # [m] around a shoulder cloth is rounded, and less and less as far again
+SHIRT_TRIANGLES = 2100  # before shoulders are rounded and hems are added; ours, for 30,000 in all
+SHIRT_PRICE = 400.0  # of a vertex on shoulders, sleeves or the front; ours, so that the back is thinned in their place
+TRUNK = ("hips", "spine", "chest", "upper_chest")
+SHOULDER = 0.12  # [m] around a shoulder cloth is rounded, and less and less as far again
 ARMPIT_STEPS = 4  # of smoothing, so that no cloth sticks out of the armpit of a raised arm
 SLEEVE_OFF, SLEEVE_REACH = 0.008, 0.05  # [m] short sleeves stand off near their rim, so that a bent arm stays inside
 EAR_FROM = 0.066  # [m] from the middle of the head
@@ -111,6 +116,7 @@ class Maker:
         normals = surface.normals_of(points, quads)
         weights = fitting.carried_weights(proxy, self.weights)
         if name == "shirt":
+            weights = rig.without(weights, ("head", "jaw"), "neck")
             arms = [rig.NAMES.index(joint) for joint in ARMS]
             near = surface.links(quads, len(points))
             below = points[:, 1:2] < self.joints[arms[0]][1]
@@ -131,7 +137,12 @@ class Maker:
         part = surface.build(points, normals, quads, proxy.mesh.uvs, uv_quads, weights, moves, turns)
         if name == "shirt":
             near = cKDTree(self.joints[arms]).query(part.points)[0]
-            part = surface.rounded(part, np.clip(2 - near / SHOULDER, 0, 1))
+            trunk = part.weights[:, [rig.NAMES.index(joint) for joint in TRUNK]].sum(1)
+            kept = np.maximum(np.clip(2 - near / SHOULDER, 0, 1), (trunk < 0.9) | (part.normals[:, 2] > 0))
+            part = surface.thinned(part, SHIRT_TRIANGLES, 1 + SHIRT_PRICE * kept)
+            near = cKDTree(self.joints[arms]).query(part.points)[0]
+            part = hems.hemmed(surface.rounded(part, np.clip(2 - near / SHOULDER, 0, 1)))
+            part.weights = rig.fewer(part.weights)
         self.surfaces.append((name, surface.thinned(part, wanted) if wanted else part))
 
     def add_eyes(self):
@@ -198,7 +209,7 @@ class Maker:
         points[:, 2] -= np.where(lower, LOWER_TEETH_BACK, 0)
         foremost = points[mesh.quads[~gums], 2].max()
         for name, kept, colour, rough, wanted in (
-            ("teeth", ~gums & (depth_of_piece[piece] > TEETH_FROM), (0.96, 0.94, 0.88), 0.25, 1700),
+            ("teeth", ~gums & (depth_of_piece[piece] > TEETH_FROM), (0.96, 0.94, 0.88), 0.25, 900),
             ("gums", gums & (depth > GUMS_FROM), (0.78, 0.46, 0.44), 0.4, 450),
         ):
             place = points - [0, 0, GUMS_BACK] if name == "gums" else points
@@ -216,7 +227,7 @@ class Maker:
         turns = {m: surface.normals_of(points + move, proxy.mesh.quads) - normals for m, move in moves.items()}
         weights = fitting.carried_weights(proxy, self.weights)
         part = surface.build(points, normals, quads, None, None, weights, moves, turns)
-        part = surface.thinned(part, wanted)
+        part = surface.thinned(part, wanted, np.where(part.normals[:, 2] > TEETH_BACKWARD, TEETH_FRONT_PRICE, 1.0))
         self.surfaces.append((name, part))
         return part
 
@@ -236,14 +247,10 @@ class Maker:
             points, surface.normals_of(points, mesh.quads), mesh.quads[upper], mesh.uvs, mesh.uv_quads[upper],
             fitting.carried_weights(proxy, self.weights),
         )
-        frames = np.concatenate([shirt.points, shirt.normals, surface.tangents_of(shirt)], 1)
-        openness, bumps = folds.drape(
-            surface.in_texture(frames, shirt.uvs, shirt.triangles, 1024),
-            dict(zip(rig.NAMES, self.joints)), shirt.points[:, 1].min(),
-        )
+        openness, bumps = folds.drape(shirt, dict(zip(rig.NAMES, self.joints)), 1024)
         for name, kept, weave, seed in (("shirt", upper, False, 21), ("trousers", ~upper, True, 22)):
             light = openness if name == "shirt" else np.clip(luma / np.median(luma), 0.7, 1.3) ** 0.5
-            self.add_proxy(name, proxy, keep=kept, wanted=None if name == "shirt" else 1250)
+            self.add_proxy(name, proxy, keep=kept, wanted=None if name == "shirt" else 700)
             texture = paint.cloth(shadow, light, self.person.colours[name], weave, seed)
             normals = paint.jpeg(bumps, 90, full_colour=True) if name == "shirt" else None
             self.material(name, 0.88, image=paint.jpeg(texture, 82), double=True, normals=normals)

@@ -115,6 +115,20 @@ def base_weights(package):
     return weights / weights.sum(1, keepdims=True)
 
 
+def without(weights, joints, other):
+    """(V, J) weights of which what `joints` hold is held by the `other`."""
+    weights, gone = weights.copy(), [NAMES.index(joint) for joint in joints]
+    weights[:, NAMES.index(other)] += weights[:, gone].sum(1)
+    weights[:, gone] = 0
+    return weights
+
+
+def fewer(weights):
+    """(V, J) weights of at most 4 joints: all less by the fifth, so that none jumps from vertex to vertex."""
+    weights = np.clip(weights - np.sort(weights, axis=1)[:, -5:-4], 0, None)
+    return weights / weights.sum(1, keepdims=True)
+
+
 def strongest_four(weights):
     """(V, 4) joints and (V, 4) weights that sum to 1, strongest first."""
     joints = np.argsort(-weights, axis=1, kind="stable")[:, :4]
