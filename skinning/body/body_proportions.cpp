@@ -47,6 +47,7 @@ struct Farthest {
     double head = 1.2, face = 0.35, middle = 0.35, part = 0.5, limb = 0.7;
 };
 constexpr Farthest kFarthest;
+constexpr size_t kFewestChecks = 6;
 
 // Frames of a picture, and how often parts of a body lie where they should not.
 class OddPlaces {
@@ -57,7 +58,7 @@ class OddPlaces {
         for (size_t t = 0; t < frames; t += frames / kMostLooks + 1) look_at(t * points);
     }
 
-    std::optional<double> run(size_t fewest) const {
+    std::optional<double> run() const {
         double sum = 0;
         size_t checks = 0;
         // Whichever way the picture lies, it is one way for all parts.
@@ -71,7 +72,7 @@ class OddPlaces {
         checks += order_.size();
         for (const auto& [name, share] : far_) sum += share.odd[0] / share.seen;
         checks += far_.size();
-        if (checks < fewest) return std::nullopt;
+        if (checks < kFewestChecks) return std::nullopt;
         return sum / static_cast<double>(checks);
     }
 
@@ -234,8 +235,8 @@ std::optional<double> left_of_changes(const KeypointTrack& track) {
     return deep / flat;
 }
 
-std::optional<double> odd_places(const KeypointTrack& track, size_t fewest) {
-    return OddPlaces(track).run(fewest);
+std::optional<double> odd_places(const KeypointTrack& track) {
+    return OddPlaces(track).run();
 }
 
 std::optional<double> odd_bones(const KeypointTrack& track, Seen seen) {

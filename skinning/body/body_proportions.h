@@ -33,8 +33,8 @@ std::optional<double> scale_of_bones(const KeypointTrack& track);
 // share of frames in which the nose is not above the shoulders, they not above the hips, these not above the knees or
 // the knees not above the ankles, in whichever of four ways the picture lies; or in which eyes and ears are far from
 // the nose, the neck from the shoulders, the pelvis from the hips, the spine from both, toes and heels from the ankles,
-// hands from the wrists. Nothing if less than `fewest` of these are seen.
-std::optional<double> odd_places(const KeypointTrack& track, size_t fewest = 6);
+// hands from the wrists. Nothing if less than six of these are seen.
+std::optional<double> odd_places(const KeypointTrack& track);
 
 // Above this sum of odd_places and odd_bones no body is meant in a picture; and another order of points is meant than
 // the usual one if its sum is lower by so much. Ours, chosen on every other of 120 recordings of CMU, seen by a camera

@@ -13,12 +13,12 @@
 #include "skinning/body/body_frame.h"
 #include "skinning/body/joint_landmarks.h"
 #include "skinning/body/moving_skeleton.h"
+#include "skinning/body/up_doubt.h"
 #include "skinning/motion/up_axis.h"
 
 namespace chironomia {
 namespace {
 
-constexpr std::string_view kDoubtfulUp = "up axis in doubt: ";
 constexpr float kAtOrigin = 0.03f;   // ours: so near to it hips begin, against the height of the body
 constexpr double kMostFrames = 0.8;  // ours: of the frames of a picture that show which way a body lies
 
@@ -242,7 +242,7 @@ class Upright {
         evidence.beginning = samples_.beginning;
         const ChosenUp chosen = choose_up_axis(evidence);
         note(chosen.note);
-        if (!chosen.doubt.empty()) note(std::string(kDoubtfulUp) + chosen.doubt);
+        if (!chosen.doubt.empty()) note(note_of_doubtful_up(chosen.doubt));
         return chosen.axis;
     }
 
@@ -352,12 +352,6 @@ class Upright {
 
 Motion stand_upright(Motion motion, const MotionHints& hints) {
     return Upright(std::move(motion), hints).run();
-}
-
-std::optional<std::string> doubt_of_up_axis(const Motion& motion) {
-    for (const std::string& note : motion.notes)
-        if (note.starts_with(kDoubtfulUp)) return note.substr(kDoubtfulUp.size());
-    return std::nullopt;
 }
 
 Motion stand_picture_upright(Motion motion, UpAxis up) {

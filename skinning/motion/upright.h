@@ -1,9 +1,6 @@
 // Brings a motion from a file's own axes and unit to metres, +y up, facing +z.
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "core/body/motion.h"
 #include "skinning/motion/motion_file.h"
 
@@ -14,9 +11,6 @@ namespace chironomia {
 // mirrored. Joint turns are not mirrored; a note says so. Throws Error if a hint makes no sense: a unit of 0, or one
 // that makes the body under 0.3 m or over 4 m tall.
 Motion stand_upright(Motion motion, const MotionHints& hints);
-
-// What a person should look at who trusts the up axis that was found, as the notes say; nothing if it is plain.
-std::optional<std::string> doubt_of_up_axis(const Motion& motion);
 
 // The same for the points of a picture, if there are any, whose y points down: where y points up in the file, it is
 // turned over, which is found from hips and head (without hips from the shoulders); of a picture that lies on its side

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
-#include "skinning/motion/upright.h"
+#include "skinning/body/up_doubt.h"
 #include "skinning/stick/stick.h"
 
 namespace chironomia::study {

@@ -140,8 +140,8 @@ TEST(FaceCli, BakesTheFaceIntoAGlb) {
     std::size_t weights = 0;
     for (const Json& channel : json["animations"][0]["channels"])
         weights += channel["target"]["path"] == "weights" ? 1 : 0;
-    // Skin and lashes; eyeballs, teeth and tongue have no shape of a smile or a blink.
-    EXPECT_EQ(weights, 2u);
+    // Skin, lashes, the lids' shadow and their wet line; eyeballs, teeth and tongue have no shape of a smile or a blink.
+    EXPECT_EQ(weights, 4u);
     EXPECT_THAT(read_json(folder / "r.json")["face"]["shown"]["AU12"],
                 ElementsAre("mouthSmileLeft", "mouthSmileRight"));
 }

@@ -18,11 +18,8 @@
 namespace chironomia {
 namespace {
 
-constexpr double kAtHips = 0.1;    // ours: hips may lie so far from MediaPipe's origin [m]
-constexpr double kFarthest = 1e9;  // [the file's unit]; what is not nearer is no place
-// Of rows that models put out: an upper body has few parts, and its forearms may point to the camera throughout.
-constexpr size_t kFewestOfRows = 3;
-constexpr double kTooOddRows = 0.6;   // ours: of odd_bones and odd_places together
+constexpr double kAtHips = 0.1;       // ours: hips may lie so far from MediaPipe's origin [m]
+constexpr double kFarthest = 1e9;     // [the file's unit]; what is not nearer is no place
 constexpr size_t kFewestFrames = 10;  // ours: fewer may show a body in any posture
 
 std::string known_layouts(bool picture) {
@@ -460,27 +457,8 @@ void simplify_names(std::vector<std::string>& names) {
     for (std::string& name : names) name.erase(0, prefix.size());
 }
 
-// Rows that are as wide as those of a body in a picture may hold something else, such as 52 weights of a face.
-void refuse_odd_rows(const KeypointData& data, PointNaming naming) {
-    if (!data.picture || data.frames < kFewestFrames) return;
-    naming.zero_is_missing = false;
-    const KeypointTrack track = TrackMaker(data, naming).run();
-    const auto bones = odd_bones(track, Seen::in_picture), places = odd_places(track, kFewestOfRows);
-    if (!bones || *bones + places.value_or(0) < kTooOddRows) return;
-    throw Error(format(
-        "{}: {} numbers a frame are by their number those of {} points in a picture, but they do not lie as those "
-        "of a body (bones as long as an adult's, the nose above the shoulders, eyes near it, hands near the "
-        "wrists); if they are weights of ARKit or others of a face, give them as .csv or .json with their "
-        "names",
-        data.where, 2 * data.points, data.points));
-}
-
 PointNaming choose_naming(KeypointData& data, const std::filesystem::path& name_map) {
-    if (!data.ours.empty()) {
-        PointNaming rows{.names = data.ours, .how = ""};
-        refuse_odd_rows(data, rows);
-        return rows;
-    }
+    if (!data.ours.empty()) return {.names = data.ours, .how = ""};
     if (data.names.empty() && name_map.empty()) return name_by_count(data);
     for (size_t k = 0; data.names.size() < data.points; ++k) data.names.push_back(format("{}", k));
     if (!name_map.empty()) return name_by_map(data, name_map);

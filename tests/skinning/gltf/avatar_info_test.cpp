@@ -26,8 +26,8 @@ TEST(DescribeAvatar, DescribesTheMannequin) {
 
 TEST(DescribeAvatar, PrintsThePartsUnderOneAnother) {
     const std::string text = avatar_text(describe_avatar(read_avatar(test_file("made/mixamo.glb"))));
-    EXPECT_THAT(text, HasSubstr("height        1.775 m\n"));
-    EXPECT_THAT(text, HasSubstr("mesh          12 surfaces, 27198 triangles"));
+    EXPECT_THAT(text, HasSubstr("height        1.776 m\n"));
+    EXPECT_THAT(text, HasSubstr("mesh          14 surfaces, 29661 triangles"));
     EXPECT_THAT(text, HasSubstr("\n  left_upper_arm      mixamorig:LeftArm\n"));
     EXPECT_THAT(text, HasSubstr("browDownLeft"));
     EXPECT_THAT(text, HasSubstr("missing       jaw, left_eye, right_eye\n"));

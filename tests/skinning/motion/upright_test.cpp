@@ -7,6 +7,7 @@
 
 #include "core/files/files.h"
 #include "skinning/body/joint_landmarks.h"
+#include "skinning/body/up_doubt.h"
 #include "skinning/motion/bvh/bvh.h"
 #include "skinning/motion/motion_file.h"
 #include "tests/support/support.h"

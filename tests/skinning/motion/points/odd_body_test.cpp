@@ -175,18 +175,5 @@ TEST_F(OddBody, IsThatOfQuaternions) {
     EXPECT_TRUE(read_motion(array({kFrames, 22, 4}, with_ones), {.fps = 30}).keypoints);
 }
 
-// 52 weights of ARKit are as many numbers as 11 points of a body and 15 of a face.
-TEST_F(OddBody, IsThatOfWeightsOfAFace) {
-    std::vector<double> weights;
-    for (size_t t = 0; t < kFrames; ++t)
-        for (size_t i = 0; i < 52; ++i)
-            weights.push_back(i % 3 == 0 ? 0 : std::abs(std::sin(0.1 * double(t) + double(i * i))) * 0.4);
-    EXPECT_THAT(
-        refusal(array({kFrames, 52}, weights), {.fps = 30, .picture = {.size = Vec2(1280, 720)}}),
-        AllOf(HasSubstr("a.npy: 52 numbers a frame are by their number those of 26 points in a picture, but "
-                        "they do not lie as those of a body"),
-              HasSubstr("if they are weights of ARKit or others of a face, give them as .csv or .json")));
-}
-
 }  // namespace
 }  // namespace chironomia
