@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "core/hash.h"
 #include "core/text.h"
@@ -54,6 +55,18 @@ std::string pages_each(const Composition& all) {
     return format("{} to {}", least->pages.size(), most->pages.size());
 }
 
+// Whether most participants see one condition alone, as the analysis then takes them for groups of different people.
+bool is_between_participants(const Source& from) {
+    const Design& design = from.all.design;
+    const auto seen_alone = std::ranges::count_if(design.sheets, [&](const Sheet& sheet) {
+        std::set<std::size_t> seen;
+        for (const Showing& shown : sheet.pages)
+            seen.insert(design.pages[shown.page].places.begin(), design.pages[shown.page].places.end());
+        return seen.size() == 1;
+    });
+    return 2 * static_cast<std::size_t>(seen_alone) > design.sheets.size();
+}
+
 // ---- What plan and program say, item by item
 
 Sentences study_type(const Source&) {
@@ -102,9 +115,9 @@ Sentences study_design(const Source& from) {
 Sentences randomization(const Source& from) {
     const DesignShape shape = shape_of(from.plan, kSeed);
     Sentences says;
-    switch (shape.sides) {
+    switch (shape.groups.front().size() == 1 ? SideRule::fixed : shape.sides) {
         case SideRule::fixed:
-            says.push_back("Sides are fixed as the plan lists them.");
+            if (shape.groups.front().size() > 1) says.push_back("Sides are fixed as the plan lists them.");
             break;
         case SideRule::per_page:
             says.push_back("Sides are drawn for each page, balanced, and are the same for all participants.");
@@ -117,7 +130,10 @@ Sentences randomization(const Source& from) {
                 "Places follow Williams' design: each condition stands at each place equally often.");
             break;
     }
-    says.push_back(format("Pages come in {} orders, rows of Williams' design.", from.all.sheets.size()));
+    const bool sampled = shape.each_clip_once || shape.pages_per_sheet;
+    says.push_back(format(
+        "Pages come in {} orders, {}.", from.all.sheets.size(),
+        sampled ? "each of a sample of them in a row of Williams' design" : "rows of Williams' design"));
     says.push_back(
         "A participant is given the sheet that fewest others have finished or are working on; of several the first.");
     says.push_back("All of it is drawn from a seed that is kept with the key.");
@@ -245,7 +261,12 @@ Sentences models(const Source& from) {
             "losses; beside it the share of decided votes with Clopper and Pearson's interval, and strengths by "
             "Bradley-Terry as Elo with intervals from resampled participants.");
     }
-    if (asks_scores(plan)) {
+    if (asks_scores(plan) && is_between_participants(from)) {
+        says.push_back(
+            "Scores: a participant sees one condition. For each two conditions Welch's t test of the participants' "
+            "scores; over all a one-way analysis of variance with eta squared, and Fisher's least significant "
+            "differences.");
+    } else if (asks_scores(plan)) {
         says.push_back(
             "Scores: for each two conditions the paired t test and Wilcoxon's test of the participants' scores.");
         if (plan.conditions.size() > 2)

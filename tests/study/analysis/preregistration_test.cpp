@@ -160,6 +160,19 @@ TEST_F(Preregistered, NamesTestsOfAllConditionsWhereThereAreThree) {
         HasSubstr("Over all conditions, of the participants who rated each of them: Friedman's test"));
 }
 
+// Of one page each, participants are groups of different people, as `study analyse` takes them.
+TEST_F(Preregistered, NamesTestsOfGroupsWhereEachSeesOneCondition) {
+    Json plan = sample_plan();
+    plan["layout"] = "single";
+    plan["pages_per_participant"] = 1;
+    plan["questions"] =
+        Json::array({{{"id", "natural"}, {"kind", "rating"}, {"text", "How?"}, {"points", 5}}});
+    ASSERT_EQ(preregister(plan).exit_code, 0);
+    EXPECT_THAT(item("Statistical models").dump(), HasSubstr("For each two conditions Welch's t test"));
+    EXPECT_THAT(item("Statistical models").dump(), Not(HasSubstr("paired t")));
+    EXPECT_THAT(item("Randomization").dump(), Not(HasSubstr("Sides")));
+}
+
 TEST_F(Preregistered, NamesScalesWithTheirItems) {
     Json plan = sample_plan();
     plan["layout"] = "single";
