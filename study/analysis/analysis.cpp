@@ -287,8 +287,13 @@ void write_analysis(const Analysis& analysis, const fs::path& folder) {
         table_of_questionnaire(analysis.data, analysis.strict.excluded, analysis.lenient.excluded);
     if (!at_end.rows.empty()) add_single(analysis, at_end, files);
     if (!analysis.strict.votes.empty()) {
-        const Table battles = table_of_battles(without_excluded(analysis.data, analysis.strict.excluded));
-        files["battles.csv"] = csv_header(battles, {}) + csv_rows(battles, {});
+        const Dataset counted = without_excluded(analysis.data, analysis.strict.excluded);
+        for (const VoteResult& votes : analysis.strict.votes) {
+            const Table battles = table_of_battles(counted, votes.question);
+            const std::string& id = analysis.data.questions[votes.question].id;
+            files[analysis.strict.votes.size() == 1 ? "battles.csv" : format("battles-{}.csv", id)] =
+                csv_header(battles, {}) + csv_rows(battles, {});
+        }
         files["elo_samples.csv"] = elo_samples(analysis);
     }
     files["tables.tex"] = latex_of(analysis);

@@ -90,7 +90,7 @@ Table table_of_scale_scores(const Dataset& data, const std::vector<std::string>&
     return table;
 }
 
-Table table_of_battles(const Dataset& data) {
+Table table_of_battles(const Dataset& data, std::size_t question) {
     Table table{.id = "battles",
                 .title = "Battles",
                 .note = "",
@@ -103,6 +103,7 @@ Table table_of_battles(const Dataset& data) {
                             {"juiceOptions", ""},
                             {"juiceOtherReason", ""}}};
     for (const Preference& each : data.preferences) {
+        if (each.question != question) continue;
         const std::size_t right = each.left == each.first ? each.second : each.first;
         const std::size_t winner = each.strength > 0 ? each.first : each.second;
         const std::string user = data.raters[each.participant].name;

@@ -23,6 +23,6 @@ Table table_of_scale_scores(const Dataset& data, const std::vector<std::string>&
 
 // The votes in the columns of the leaderboard of GENEA: user, input_code, model_a, model_b (a stood left),
 // winner, is_strong, juiceOptions, juiceOtherReason. The names of simulated users say that they are simulated.
-Table table_of_battles(const Dataset& data);
+Table table_of_battles(const Dataset& data, std::size_t question);
 
 }  // namespace chironomia::study::analysis

@@ -119,9 +119,16 @@ void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
     const bool strong = battle.choice("is_strong", {"True", "False", ""}) == "True";
     const int towards_left =
         winner.starts_with("tie") ? 0 : (strong ? 2 : 1) * (winner == "model_a" ? 1 : -1);
+    const std::size_t participant = rater_named(data, battle.at("user"), file);
+    if (data.raters[participant].file != file) {
+        battle.refuse(
+            format("\"{}\" voted in {} too; give the votes of each participant once, and those on another "
+                   "question by themselves",
+                   battle.at("user"), data.raters[participant].file));
+    }
     const std::string clip = battle.at("input_code");
     const std::string pair = format("{}: {} and {}", clip, std::min(left, right), std::max(left, right));
-    Preference preference{.participant = rater_named(data, battle.at("user"), file),
+    Preference preference{.participant = participant,
                           .question = question_with(data, preference_question()),
                           .unit = unit_named(data, pair),
                           .first = std::min(left, right),

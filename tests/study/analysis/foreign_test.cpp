@@ -45,9 +45,22 @@ TEST(ReadForeignAnswers, ReadsBattles) {
     EXPECT_EQ(data.preferences[1].left, 1u);
     EXPECT_EQ(data.preferences[2].strength, 0);
     // What is written again is what was read.
-    const Table again = table_of_battles(data);
+    const Table again = table_of_battles(data, 0);
+    EXPECT_THAT(table_of_battles(data, 1).rows, ::testing::IsEmpty()) << "another question";
     EXPECT_EQ(csv_header(again, {}), kHeader);
     EXPECT_EQ(read("again.csv", csv_header(again, {}) + csv_rows(again, {})).preferences[1].strength, -1);
+}
+
+// Twice the same votes would make every interval narrower.
+TEST(ReadForeignAnswers, RefusesWhoVotedInTwoFiles) {
+    const TemporaryFolder folder;
+    for (const char* name : {"a.csv", "b.csv"})
+        write_text(folder / name, std::string(kHeader) + "u1,c1,NA,SA,model_a,True,[],\n");
+    EXPECT_THAT(refusal_of([&] {
+                    read_foreign_answers({folder / "a.csv", folder / "b.csv"});
+                }),
+                HasSubstr("b.csv:2: \"u1\" voted in " + (folder / "a.csv").string() +
+                          " too; give the votes of each"));
 }
 
 // As GENEA published battles_elo.csv: a byte order mark, {} where no reason was given, ties of two kinds.
