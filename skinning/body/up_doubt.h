@@ -1,4 +1,4 @@
-// A note of a motion that says that its up axis is in doubt, which whoever performs the motion makes a warning.
+// The note of a motion whose up axis is in doubt. `render`, `fit` and `convert` show it as a warning.
 #pragma once
 
 #include <optional>

@@ -17,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kUnitLength = 0.01;  // ours: of quaternions with few digits
-
 constexpr std::array<std::string_view, 14> kUsualNames = {
     "keypoints", "keypoints3d", "keypoints_3d", "poses3d", "poses_3d", "joints", "joints3d",
     "joints_3d", "positions",   "positions_3d", "points",  "xyz",      "data",   ""};
@@ -220,10 +218,12 @@ void refuse_movenet(const NumpyArray& array, const Layout& layout, const std::st
 
 // Four numbers of a joint may be a turn, x, y, z and w in any order; places and confidences are no unit vectors.
 void refuse_quaternions(const NumpyArray& array, const Layout& layout, const std::string& where) {
-    if (layout.columns != 4) return;
+    if (layout.columns != 4 || array.numbers.empty()) return;
     for (size_t i = 0; i + 4 <= array.numbers.size(); i += 4) {
         const double* q = array.numbers.data() + i;
-        if (!(std::abs(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) - 1) < kUnitLength)) return;
+        if (!(std::abs(std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])) - 1) <
+              kQuaternionTolerance))
+            return;
     }
     throw Error(format(
         "{}: the four numbers of every point of {} make 1 as those of quaternions, so they are turns and not "

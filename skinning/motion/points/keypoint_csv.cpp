@@ -224,7 +224,7 @@ void refuse_quaternion_columns(const CsvTable& table, const std::vector<PointCol
         for (const auto& columns : fourths) {
             double sum = 0;
             for (const size_t c : columns) sum += std::pow(parse_number(row.cells[c]).value_or(0), 2);
-            if (!(std::abs(std::sqrt(sum) - 1) < 0.01)) return;
+            if (!(std::abs(std::sqrt(sum) - 1) < kQuaternionTolerance)) return;
         }
     }
     throw Error(format(

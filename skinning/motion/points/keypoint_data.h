@@ -11,6 +11,9 @@
 
 namespace chironomia {
 
+// How far from 1 the length of a quaternion with few digits may be; ours.
+inline constexpr double kQuaternionTolerance = 0.01;
+
 inline constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
 
 struct KeypointData {

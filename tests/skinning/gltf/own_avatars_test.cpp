@@ -150,6 +150,22 @@ TEST(BundledAvatars, HaveTheirLicenceAndOriginBesideThem) {
         EXPECT_THAT(readme, HasSubstr("`" + name + ".glb`"));
 }
 
+// Folds that follow the light, and lids that shade the eyes as they move.
+TEST_P(OwnAvatar, HasFoldsAndLidsThatShadeTheEyes) {
+    const auto material_of = [&](const Surface& surface) -> const Material& {
+        return avatar().materials.at(static_cast<size_t>(surface.material));
+    };
+    EXPECT_GE(material_of(*surfaces_of(avatar(), "shirt").at(0)).normal_texture.image, 0);
+    for (const char* strip : {"eye_shadow", "eye_wet"}) {
+        ASSERT_EQ(surfaces_of(avatar(), strip).size(), 1u) << strip;
+        const Surface& surface = *surfaces_of(avatar(), strip)[0];
+        EXPECT_EQ(material_of(surface).alpha_mode, AlphaMode::blend) << strip;
+        EXPECT_TRUE(std::ranges::any_of(surface.morphs, [](const Morph& morph) {
+            return morph.name == "AU45_L";
+        })) << strip;
+    }
+}
+
 TEST_P(OwnAvatar, HasAllHumanJoints) {
     for (int joint = 0; joint < kHumanJoints; ++joint) {
         EXPECT_GE(avatar().humanoid[static_cast<HumanJoint>(joint)], 0)
