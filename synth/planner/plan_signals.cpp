@@ -225,12 +225,12 @@ class SignalPlanner {
 
     double end_before(std::size_t word) const { return word == 0 ? 0 : plan_.speech.words[word - 1].end; }
 
-    // A "no" whose accent nods would be none.
+    // A "no" whose accent nods would be none. Whether the head shakes at this activation does not matter: a higher one
+    // only adds.
     bool is_shaken_at(double time) const {
-        const double activation = plan_.speaker[Expressivity::overall_activation];
         return std::ranges::any_of(candidates_, [&](const Candidate& candidate) {
-            return candidate.signal.kind == SignalKind::shake && activation > candidate.threshold &&
-                   candidate.signal.start < time && time < candidate.signal.end;
+            return candidate.signal.kind == SignalKind::shake && candidate.signal.start < time &&
+                   time < candidate.signal.end;
         });
     }
 

@@ -140,6 +140,20 @@ TEST(PlanSignals, HeadAndBrowsMoveOnAccents) {
     EXPECT_TRUE(std::is_sorted(behaviours.accents.begin(), behaviours.accents.end()));
 }
 
+// Over 200 seeds the accent of the refusal asks for a nod in many; without the refusal it is there.
+TEST(PlanSignals, AccentsDoNotNodWhileTheHeadShakes) {
+    const auto nods_of = [](const std::vector<Mark>& marks) {
+        int nods = 0;
+        for (std::uint64_t seed = 0; seed < 200; ++seed) {
+            for (const Signal& signal : signals_of(spoken("No", marks), speaker_of(1), seed))
+                nods += signal.kind == SignalKind::nod;
+        }
+        return nods;
+    };
+    EXPECT_GT(nods_of({}), 50);
+    EXPECT_EQ(nods_of({{.kind = MarkKind::performative, .value = "refuse", .end_word = 1, .weight = 1}}), 0);
+}
+
 TEST(PlanSignals, TheBodyShiftsBehindParagraphsAndLongPausesAlone) {
     for (std::uint64_t seed = 0; seed < 20; ++seed)
         for (const Signal& signal : signals_of(talk(), speaker_of(1), seed)) {
