@@ -472,7 +472,7 @@ void add_questions_of_passes(Dataset& data, const StudyKey& key, const StudyPage
             const bool is_first = pass == *passes[q].begin();
             if (!is_first) data.questions.push_back(key.questions[q]);
             const std::size_t index = is_first ? q : data.questions.size() - 1;
-            data.questions[index].id = format("{}, pass {}", key.questions[q].id, pass + 1);
+            data.questions[index].id = format("{}-pass-{}", key.questions[q].id, pass + 1);
             data.of_passes[{q, pass}] = index;
         }
     }

@@ -97,10 +97,10 @@ struct Dataset {
     bool simulated = false;
     std::uint64_t seed = 42;
     std::vector<KeyCondition> conditions;
-    std::vector<Question>
-        questions;  // then those that other passes ask again, then scales as if they were asked
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t>
-        of_passes;  // by the key's question and the pass
+    // Those of the key, those that other passes ask again, and scales as if they were asked.
+    std::vector<Question> questions;
+    // Of a question that several passes ask its index for each: by its index in the key and the pass.
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> of_passes;
     std::vector<Scale> scales;
     std::vector<Question> questionnaire;  // asked at the end
     std::vector<std::string> cells;       // labels of scores; the first are the conditions
@@ -131,7 +131,7 @@ std::string label_of(const Dataset& data, std::vector<std::size_t> conditions);
 // key: where that is A the score is reversed, so that the highest score always means "like the first".
 // `pages`, of the same build, say which questions a pass asks: a note counts those that were left out. They say what
 // a sheet shows: who lacks answers of it has not finished, and a note says so.
-// A question that several passes ask is one for each of them, "natural, pass 2".
+// A question that several passes ask is one for each of them, "natural-pass-2".
 // Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist, or an answer at the end
 // fits no question.
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,

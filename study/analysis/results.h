@@ -53,9 +53,8 @@ struct WithinTests {
 
 struct ScoreResult {
     std::size_t question = 0;
-    Interval range;  // of the scale, or of what was answered
-    std::size_t left_out =
-        0;  // participants who rated several cells where most rated one; their answers count
+    Interval range;            // of the scale, or of what was answered
+    std::size_t left_out = 0;  // participants who rated several cells, where most rated one
     std::vector<CellResult> cells;
     std::vector<CellPair> pairs;
     std::optional<WithinTests> within;  // of the participants' scores

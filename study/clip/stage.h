@@ -32,8 +32,7 @@ Stage make_stage(std::span<const Performance> people, const ClipJob& job);
 
 // In how many of the frames that are shown something of one of `people` is not in the picture, as parts_outside.h says.
 struct FramesOutside {
-    std::size_t figure =
-        0;  // the head or its top, or the middle of what is no person and does not fill the picture
+    std::size_t figure = 0;   // the head or its top, or the middle of what is no person
     std::size_t hands = 0;    // a hand
     std::size_t feet = 0;     // a foot
     std::size_t of = 0;       // frames that are shown

@@ -538,6 +538,15 @@ TEST_F(StudyPlan, WarnsOfScoresThatBelongToNoCondition) {
                     "score; if each video is to be rated, give the question \"each\": true")));
     EXPECT_THAT(plan_warnings(read_with({{"questions", {each}}})), IsEmpty());
     EXPECT_THAT(plan_warnings(read_with({{"questions", {slider}}, {"layout", "single"}})), IsEmpty());
+    // Of a triplet a rating has a score, whatever it asks.
+    const Json three = {"ours", "baseline", {{"name", "still"}, {"from", "ours"}, {"by", "frozen"}}};
+    const Json sure = {{"id", "sure"}, {"kind", "rating"}, {"text", "How sure?"}, {"points", 5}};
+    EXPECT_THAT(plan_warnings(read_with({{"layout", "triplet"},
+                                         {"conditions", three},
+                                         {"reference", "baseline"},
+                                         {"questions", {sure}}})),
+                Contains(HasSubstr(
+                    "questions: \"sure\" is analysed as similarity of the reference to A (1) or to B (5)")));
 }
 
 TEST_F(StudyPlan, ExcludesByTheLenientRuleNoMoreThanByTheStrictOne) {

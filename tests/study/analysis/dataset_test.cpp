@@ -184,7 +184,7 @@ TEST(JoinAnswers, CountsEachPassThatAsksTheSameByItself) {
     ASSERT_EQ(data.questions.size(), 2u);
     for (const std::size_t pass : {0, 1}) {
         const Preference& preference = data.preferences[pass];
-        EXPECT_EQ(data.questions[preference.question].id, pass == 0 ? "realism, pass 1" : "realism, pass 2");
+        EXPECT_EQ(data.questions[preference.question].id, pass == 0 ? "realism-pass-1" : "realism-pass-2");
         EXPECT_EQ(preference.strength, pass == 0 ? 2 : -2);
         EXPECT_EQ(data.asked_as(preference.question), 0u);
     }

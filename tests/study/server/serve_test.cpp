@@ -222,6 +222,17 @@ TEST_F(Served, LetsTwoServersNotShareAPort) {
     EXPECT_THAT(refusal_of([&] { StudyServer{other}; }), HasSubstr("cannot be listened to"));
 }
 
+// So that no build replaces a study whose answers lie elsewhere.
+TEST_F(Served, LeavesThePathOfADatabaseElsewhere) {
+    start(options());
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "private/database.txt")) << "its own needs none";
+    stop();
+    ServeOptions elsewhere = options();
+    elsewhere.database = folder_ / "elsewhere.sqlite";
+    start(elsewhere);
+    EXPECT_EQ(read_text(folder_ / "private/database.txt"), elsewhere.database.string() + "\n");
+}
+
 TEST_F(Served, RefusesAWeakToken) {
     ServeOptions weak = options();
     weak.token = "short";
