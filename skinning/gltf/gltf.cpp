@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/gltf/bind_pose.h"
 #include "skinning/gltf/gltf_expressions.h"
 #include "skinning/gltf/gltf_mesh.h"
 #include "skinning/gltf/gltf_scene.h"
@@ -46,6 +47,10 @@ HumanoidGuess guess_humanoid(const GltfScene& scene) {
 
 Avatar made_upright(GltfScene& scene, HumanoidGuess guess) {
     scene.avatar.humanoid = guess.map;
+    if (std::optional<BindPose> bind = bind_pose_of(scene.avatar)) {
+        scene.avatar.skeleton = std::move(bind->skeleton);
+        scene.avatar.humanoid_notes.push_back(std::move(bind->note));
+    }
     unmirror(scene.avatar);
     finish_human_materials(scene.avatar);
     for (std::string& note : guess.notes) scene.avatar.humanoid_notes.push_back(std::move(note));

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/gltf/bind_pose.h"
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_file.h"
 #include "skinning/signal/frame_rate.h"
@@ -117,6 +118,10 @@ Motion read_gltf_motion(const std::filesystem::path& file, std::optional<double>
             motion.joints->turns.push_back(normalize(joint.rotation));
             motion.joints->translations.push_back(joint.translation);
         }
+    }
+    if (std::optional<BindPose> bind = bind_pose_of(scene.scene)) {
+        motion.joints->skeleton = std::move(bind->skeleton);
+        motion.notes.push_back(std::move(bind->note));
     }
     note_left_out(motion, animation);
     motion.notes.push_back(format("rate: {:.6g} frames/s{}", rate, fps ? ", set by hand" : ""));

@@ -317,6 +317,14 @@ struct PosedAvatar {
     std::vector<Pose> poses;  // (T)
 };
 
+// Whether the avatar was unmirrored, or its rest pose is not the one of the file's nodes.
+bool has_other_rest(const Skeleton& avatar, const Skeleton& file, size_t first) {
+    for (size_t j = 0; j < file.joints.size(); ++j) {
+        if (avatar.joints[first + j].rest != file.joints[j].rest) return true;
+    }
+    return false;
+}
+
 // In the axes of its file, whose first joint is joint `first` of the avatar.
 PosedAvatar in_axes_of_file(const Avatar& avatar, std::vector<Pose> poses, const Skeleton& file,
                             size_t first) {
@@ -347,10 +355,11 @@ void write_animated_glb(const std::filesystem::path& out, const std::filesystem:
                format("has {} nodes and the avatar {} joints; give the file that the avatar was read from",
                       tree.node_of_joint.size(), joints));
     }
-    std::optional<PosedAvatar> mirrored;
-    if (has_negative_scale(tree.skeleton))
-        mirrored = in_axes_of_file(avatar, all, tree.skeleton, uprighted ? 1 : 0);
-    const Avatar& written = mirrored ? mirrored->avatar : avatar;
+    const size_t first = uprighted ? 1 : 0;
+    std::optional<PosedAvatar> in_file;
+    if (has_other_rest(avatar.skeleton, tree.skeleton, first))
+        in_file = in_axes_of_file(avatar, all, tree.skeleton, first);
+    const Avatar& written = in_file ? in_file->avatar : avatar;
     try {
         Glb glb(std::move(file));
         name_scene(glb, tree);
@@ -359,7 +368,7 @@ void write_animated_glb(const std::filesystem::path& out, const std::filesystem:
         write_rest_transforms(glb, written, node_of_joint);
         Bake bake{.glb = glb,
                   .avatar = written,
-                  .poses = mirrored ? mirrored->poses : all,
+                  .poses = in_file ? in_file->poses : all,
                   .node_of_joint = node_of_joint};
         add_animation(bake, fps);
         write_bytes(out, glb.bytes());
