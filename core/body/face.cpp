@@ -8,13 +8,14 @@
 namespace chironomia {
 namespace {
 
-constexpr std::array<std::pair<int, std::string_view>, 26> kUnits = {{
+constexpr std::array<std::pair<int, std::string_view>, 27> kUnits = {{
     {1, "inner brow raiser"},
     {2, "outer brow raiser"},
     {4, "brow lowerer"},
     {5, "upper lid raiser"},
     {6, "cheek raiser"},
     {7, "lid tightener"},
+    {8, "lips toward each other"},
     {9, "nose wrinkler"},
     {10, "upper lip raiser"},
     {12, "lip corner puller"},

@@ -39,7 +39,7 @@ struct FaceTrack {
 };
 
 // The units that the program can show: 1, 2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 17, 20, 23, 25, 26, 45 of
-// OpenFace, and 16, 18, 19, 22, 24, 28, 29, 30, 34 that speech and ARKit need, ascending.
+// OpenFace, and 8, 16, 18, 19, 22, 24, 28, 29, 30, 34 that speech and ARKit need, ascending.
 const std::vector<int>& known_action_units();
 
 // "lip corner puller" for 12; "" for a unit that is not known.

@@ -90,7 +90,13 @@ Sides Driver::read_units(size_t frame) {
             of_unit(sides[s], channel.unit) = std::max(of_unit(sides[s], channel.unit), intensity);
         }
     }
-    for (UnitIntensities& side : sides) side = limited(side);
+    for (UnitIntensities& side : sides) {
+        if (!map_.lips_close) {
+            of_unit(side, 26) = std::max(0.0f, of_unit(side, 26) - of_unit(side, 8));
+            of_unit(side, 8) = 0;
+        }
+        side = limited(side);
+    }
     return sides;
 }
 

@@ -171,6 +171,7 @@ FaceMap map_face(const Avatar& avatar) {
     const std::vector<NamedShape> shapes = shapes_of(avatar);
     for (const int unit : known_action_units()) add_unit(map, shapes, unit);
     add_looks(map, avatar, shapes);
+    map.lips_close = has_unit(map, 8);
     map.jaw_drops = !has_unit(map, 26) && map.joints.jaw >= 0;
     map.jaw_opens_lips = !has_unit(map, 25) && map.joints.jaw >= 0;
     map.lids_close = !has_unit(map, 45) && map.joints.upper_lids[0] >= 0;
@@ -183,6 +184,7 @@ std::vector<std::string> shown_by(const FaceMap& map, const Avatar& avatar, cons
         const bool meant = channel.side == FaceSide::both || covers(shape.side, channel.side);
         if (shape.unit == channel.unit && meant) names.push_back(shape.shape);
     }
+    if (channel.unit == 8 && !map.lips_close) return shown_by(map, avatar, {.unit = 26});
     const bool jaw = (channel.unit == 26 && map.jaw_drops) || (channel.unit == 25 && map.jaw_opens_lips);
     if (jaw) names.push_back(joint_name(avatar, map.joints.jaw));
     if (channel.unit == 45 && map.lids_close) {

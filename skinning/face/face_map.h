@@ -41,6 +41,7 @@ struct FaceMap {
     std::vector<UnitShape> units{};  // by unit, then side
     std::vector<LookShape> looks{};
     FaceJoints joints{};
+    bool lips_close = false;      // a morph shows AU8; otherwise the jaw drops less by as much
     bool jaw_drops = false;       // no morph shows AU26, and the jaw joint does
     bool jaw_opens_lips = false;  // no morph shows AU25, and the jaw joint does
     bool lids_close = false;      // no morph shows AU45, and joints of the lids do

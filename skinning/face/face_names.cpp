@@ -5,6 +5,7 @@
 #include <cctype>
 #include <optional>
 
+#include "core/body/arkit.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -16,25 +17,26 @@ struct KnownShape {
 };
 
 // ARKit, "ARFaceAnchor.BlendShapeLocation": its shapes are drawn after FACS. A lip that another shape moves
-// on the way parts the lips (AU25) a little; AU26 is a relaxed drop, jawOpen the widest there is (AU27).
+// on the way parts the lips (AU25) a little.
 constexpr std::array kArkit = {
-    KnownShape{"browinnerup", {1, 1}},      KnownShape{"browouterup", {2, 1}},
-    KnownShape{"browdown", {4, 1}},         KnownShape{"eyewide", {5, 1}},
-    KnownShape{"cheeksquint", {6, 1}},      KnownShape{"eyesquint", {7, 1}},
-    KnownShape{"nosesneer", {9, 1}},        KnownShape{"mouthupperup", {10, 1}},
-    KnownShape{"mouthupperup", {25, .15f}}, KnownShape{"mouthsmile", {12, 1}},
-    KnownShape{"mouthdimple", {14, 1}},     KnownShape{"mouthfrown", {15, 1}},
-    KnownShape{"mouthlowerdown", {16, 1}},  KnownShape{"mouthlowerdown", {25, .5f}},
-    KnownShape{"mouthshruglower", {17, 1}}, KnownShape{"mouthshrugupper", {17, .5f}},
-    KnownShape{"mouthpucker", {18, 1}},     KnownShape{"mouthpucker", {23, .25f}},
-    KnownShape{"tongueout", {19, 1}},       KnownShape{"mouthstretch", {20, 1}},
-    KnownShape{"mouthfunnel", {22, 1}},     KnownShape{"mouthpress", {23, .6f}},
-    KnownShape{"mouthpress", {24, 1}},      KnownShape{"mouthrollupper", {23, .3f}},
-    KnownShape{"mouthrollupper", {28, 1}},  KnownShape{"mouthrolllower", {23, .3f}},
-    KnownShape{"mouthrolllower", {28, 1}},  KnownShape{"jawopen", {25, .08f}},
-    KnownShape{"jawopen", {26, .7f}},       KnownShape{"jawforward", {29, 1}},
-    KnownShape{"jawleft", {30, 1}},         KnownShape{"jawright", {30, 1}},
-    KnownShape{"cheekpuff", {34, 1}},       KnownShape{"eyeblink", {45, 1}},
+    KnownShape{"browinnerup", {1, 1}},       KnownShape{"browouterup", {2, 1}},
+    KnownShape{"browdown", {4, 1}},          KnownShape{"eyewide", {5, 1}},
+    KnownShape{"cheeksquint", {6, 1}},       KnownShape{"eyesquint", {7, 1}},
+    KnownShape{"nosesneer", {9, 1}},         KnownShape{"mouthupperup", {10, 1}},
+    KnownShape{"mouthupperup", {25, .15f}},  KnownShape{"mouthsmile", {12, 1}},
+    KnownShape{"mouthdimple", {14, 1}},      KnownShape{"mouthfrown", {15, 1}},
+    KnownShape{"mouthlowerdown", {16, 1}},   KnownShape{"mouthlowerdown", {25, .5f}},
+    KnownShape{"mouthshruglower", {17, 1}},  KnownShape{"mouthshrugupper", {17, .5f}},
+    KnownShape{"mouthpucker", {18, 1}},      KnownShape{"mouthpucker", {23, .25f}},
+    KnownShape{"tongueout", {19, 1}},        KnownShape{"mouthstretch", {20, 1}},
+    KnownShape{"mouthfunnel", {22, 1}},      KnownShape{"mouthpress", {23, .6f}},
+    KnownShape{"mouthpress", {24, 1}},       KnownShape{"mouthrollupper", {23, .3f}},
+    KnownShape{"mouthrollupper", {28, 1}},   KnownShape{"mouthrolllower", {23, .3f}},
+    KnownShape{"mouthrolllower", {28, 1}},   KnownShape{"jawopen", {25, .08f}},
+    KnownShape{"jawopen", {26, kWholeDrop}}, KnownShape{"mouthclose", {8, kWholeDrop}},
+    KnownShape{"jawforward", {29, 1}},       KnownShape{"jawleft", {30, 1}},
+    KnownShape{"jawright", {30, 1}},         KnownShape{"cheekpuff", {34, 1}},
+    KnownShape{"eyeblink", {45, 1}},
 };
 
 constexpr std::array kOther = {

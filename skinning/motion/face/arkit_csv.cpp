@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/body/arkit.h"
 #include "core/error.h"
 #include "core/files/csv_table.h"
 #include "core/text.h"
@@ -46,7 +47,7 @@ constexpr std::array<Coefficient, 52> kCoefficients = {{
     {"jawLeft", {30, kLeft}},
     {"jawRight", {30, kRight}},
     {"jawOpen", {26, kBoth}},
-    {"mouthClose", {}},
+    {"mouthClose", {8, kBoth}},
     {"mouthFunnel", {22, kBoth}},
     {"mouthPucker", {18, kBoth}},
     {"mouthLeft", {}},
@@ -136,6 +137,7 @@ class ArkitReader {
     // A column that shows a channel.
     struct Shown {
         size_t column = 0, channel = 0;
+        float whole = 1;  // the coefficient that shows the unit at intensity 5
     };
 
     std::optional<size_t> column_of(std::string_view name) const {
@@ -164,7 +166,9 @@ class ArkitReader {
             const Coefficient* coefficient = coefficient_named(name);
             if (!coefficient) continue;
             ++coefficients_;
-            if (coefficient->channel.unit > 0) shown_.push_back({i, channel_index(coefficient->channel)});
+            const FaceChannel& channel = coefficient->channel;
+            const bool of_jaw = channel.unit == 26 || channel.unit == 8;
+            if (channel.unit > 0) shown_.push_back({i, channel_index(channel), of_jaw ? kWholeDrop : 1});
         }
         jaw_ = column_of("jawOpen");
         close_ = column_of("mouthClose");
@@ -230,11 +234,12 @@ class ArkitReader {
         const CsvRow& row = table_.rows[n];
         for (const Shown& shown : shown_) {
             float& intensity = rows_.intensities[begin + shown.channel];
-            intensity = std::max(intensity, intensity_in(table_, row, shown.column, kCoefficientToIntensity));
+            const float read = intensity_in(table_, row, shown.column, kCoefficientToIntensity);
+            intensity = std::max(intensity, std::min(read / shown.whole, 5.0f));
         }
         if (jaw_) {
-            const float parted = coefficient_in(row, jaw_) - coefficient_in(row, close_);
-            rows_.intensities[begin + lips_] = 5 * std::max(parted, 0.0f);
+            const float parted = (coefficient_in(row, jaw_) - coefficient_in(row, close_)) / kWholeDrop;
+            rows_.intensities[begin + lips_] = 5 * std::clamp(parted, 0.0f, 1.0f);
         }
     }
 

@@ -7,11 +7,12 @@
 //     eyeSquint 7 L R      noseSneer 9 L R       mouthUpperUp 10 L R   mouthSmile 12 L R
 //     mouthDimple 14 L R   mouthFrown 15 L R     mouthLowerDown 16 L R mouthShrugLower 17
 //     mouthPucker 18       tongueOut 19          mouthStretch 20 L R   mouthFunnel 22
-//     mouthPress 24 L R    jawOpen 26            mouthRollLower, mouthRollUpper 28 (the larger)
+//     mouthPress 24 L R    mouthRollLower, mouthRollUpper 28 (the larger)
 //     jawForward 29        jawLeft, jawRight 30 L R   cheekPuff 34     eyeBlink 45 L R
 // after M. Ozel, "ARKit to FACS: Blendshape Cheat Sheet" (melindaozel.com), and Apple's description of each
-// (ARFaceAnchor.BlendShapeLocation). jawOpen parts the lips, too, and mouthClose closes them again without
-// the jaw: 25 is what jawOpen has beyond mouthClose. mouthLeft, mouthRight and mouthShrugUpper are no
+// (ARFaceAnchor.BlendShapeLocation). jawOpen is the widest drop there is: 0.7 of it are the whole of 26
+// (kWholeDrop). It parts the lips, too, and mouthClose takes them back to each other without the jaw: 8, on the
+// same scale, and 25 is what jawOpen has beyond it. mouthLeft, mouthRight and mouthShrugUpper are no
 // action unit; a note names them once if they occur.
 //
 // HeadYaw, HeadPitch and HeadRoll [rad] turn the face's own axes, ours exactly (ARFaceAnchor: x to the

@@ -90,6 +90,16 @@ TEST(DriveFace, NoMorphPassesItsRangeWhateverMeets) {
     }
 }
 
+TEST(DriveFace, LipsTowardEachOtherCloseTheMouthOrHoldTheJaw) {
+    const FaceTrack track = face_of({{"AU26", 3}, {"AU8", 2}});
+    const Avatar arkit = faced_avatar({"jawOpen", "mouthClose"}), other = faced_avatar({"AU26"});
+    EXPECT_FLOAT_EQ(weight_of(arkit, track, "jawOpen"), .42f);
+    EXPECT_FLOAT_EQ(weight_of(arkit, track, "mouthClose"), .28f);
+    EXPECT_FLOAT_EQ(weight_of(other, track, "AU26"), .2f);
+    EXPECT_EQ(weight_of(other, face_of({{"AU26", 1}, {"AU8", 2}}), "AU26"), 0);
+    EXPECT_THAT(shown_by(map_face(other), other, {.unit = 8}), ElementsAre("AU26"));
+}
+
 TEST(DriveFace, DoesNothingIfAllIsSwitchedOff) {
     const Avatar avatar = read_avatar(test_file("made/makehuman.glb"));
     FaceTrack track = face_of({{"AU12", 5}, {"AU45", 5}});

@@ -78,6 +78,7 @@ Vec3 joint_place(const Avatar& avatar, HumanJoint joint) {
 std::vector<FaceChannel> all_channels() {
     std::vector<FaceChannel> channels;
     for (const int unit : known_action_units()) {
+        if (unit == 8) continue;  // the jaw drops less
         if (kMiddle.contains(unit)) {
             channels.push_back({unit, FaceSide::both});
         } else {

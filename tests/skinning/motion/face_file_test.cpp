@@ -464,8 +464,9 @@ TEST_F(ArkitFile, BecomesUnitsWithSides) {
     };
     EXPECT_FLOAT_EQ(at(45, FaceSide::left), 5);
     EXPECT_FLOAT_EQ(at(45, FaceSide::right), 1);
-    EXPECT_FLOAT_EQ(at(26), 3);
-    EXPECT_FLOAT_EQ(at(25), 2);  // 0.6 open, 0.2 of it closed again
+    EXPECT_FLOAT_EQ(at(26), 5 * 0.6f / 0.7f);  // 0.7 are a whole drop
+    EXPECT_FLOAT_EQ(at(25), 5 * 0.4f / 0.7f);  // 0.6 open, 0.2 of it closed again
+    EXPECT_FLOAT_EQ(at(8), 5 * 0.2f / 0.7f);
     EXPECT_FLOAT_EQ(at(12, FaceSide::left), 2.5f);
     EXPECT_FLOAT_EQ(at(28), 2);  // the larger lip
     EXPECT_FLOAT_EQ(at(30, FaceSide::left), 1.5f);
@@ -473,7 +474,7 @@ TEST_F(ArkitFile, BecomesUnitsWithSides) {
     EXPECT_FLOAT_EQ(at(1), 2);
     EXPECT_FLOAT_EQ(at(19), 5);
     EXPECT_EQ(intensity_of(motion, 1, {25, FaceSide::both}), 0);
-    EXPECT_THAT(motion.notes, Contains("ARKit: 11 of 52 coefficients, as 10 channels of action units"));
+    EXPECT_THAT(motion.notes, Contains("ARKit: 11 of 52 coefficients, as 11 channels of action units"));
 }
 
 TEST_F(ArkitFile, ReadsLiveLinkFace) {
