@@ -18,6 +18,7 @@
 #include "synth/speech/accents.h"
 #include "synth/speech/align.h"
 #include "synth/speech/channels.h"
+#include "synth/speech/said_phonemes.h"
 #include "synth/speech/silent_words.h"
 #include "synth/speech/speak.h"
 #include "synth/speech/timed_words.h"
@@ -223,10 +224,11 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Le
     const MarkedText text =
         has_script(job) ? parse(job, language, lexicon) : parse_words(timed, *job.words, language);
     notes.insert(notes.end(), text.notes.begin(), text.notes.end());
-    return align(text, {.audio = std::move(sound),
-                        .language = language,
-                        .words = std::move(timed.words),
-                        .phonemes = std::move(timed.phonemes)});
+    Speech speech = align(text, {.audio = std::move(sound),
+                                 .language = language,
+                                 .words = std::move(timed.words),
+                                 .phonemes = std::move(timed.phonemes)});
+    return with_said_phonemes(std::move(speech), text, notes);
 }
 
 // Less than one gesture in 10 s is ours: the bundled texts have one in 4 s.

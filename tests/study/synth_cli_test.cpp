@@ -190,6 +190,43 @@ TEST_F(Synth, ShapesTheMouthByThePhonemesOfWebMaus) {
     EXPECT_NE(webmaus, intensities_by("syllables", {"b", "o~", "Z", "u", "R"}));
 }
 
+// What a voice said, given back as a recording of which the words alone are timed.
+TEST_F(Synth, FindsTheStressedVowelsOfWordsWithoutPhonemes) {
+    ASSERT_EQ(
+        synth({"--text", kText, "--speech-out", file("s.wav"), "--score-out", file("said.json")}).exit_code,
+        0);
+    const Json said = read_json(file("said.json"));
+    std::string words = "word,start,end\n";
+    for (const Json& word : said["words"]) {
+        words += format("{},{},{}\n", word["word"].get<std::string>(), word["start"].get<double>(),
+                        word["end"].get<double>());
+    }
+    write_text(file("w.csv"), words);
+    const Outcome heard = synth({"--speech", file("s.wav"), "--words", file("w.csv"), "--text", kText,
+                                 "--score-out", file("heard.json")});
+    ASSERT_EQ(heard.exit_code, 0) << heard.err;
+    EXPECT_THAT(heard.err, HasSubstr("they lie in each word as the voice of \"en-us\" says it"));
+    const auto accents = [](const Json& score) {
+        std::vector<double> times;
+        for (const Json& gesture : score["gestures"])
+            for (const Json& stroke : gesture["strokes"]) times.push_back(stroke["accent"].get<double>());
+        return times;
+    };
+    const std::vector<double> wanted = accents(said), found = accents(read_json(file("heard.json")));
+    ASSERT_THAT(found, SizeIs(wanted.size()));
+    ASSERT_THAT(found, Not(SizeIs(0)));
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 0.01) << i;
+}
+
+TEST_F(Synth, SaysWhyNoVoiceGivesPhonemes) {
+    write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(2 * 16000, 0.1f)});
+    write_text(file("w.csv"), "word,start,end\n東京,0.5,1.5\n");
+    const Outcome made = synth({"--speech", file("s.wav"), "--words", file("w.csv"), "--language", "ja"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err, AllOf(HasSubstr("no synthetic voice gives them ("),
+                                HasSubstr("): the mouth follows the loudness")));
+}
+
 TEST_F(Synth, SaysThatNoSpeechIsHeard) {
     write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(12 * 16000)});
     const Outcome silent = synth({"--speech", file("s.wav")});
