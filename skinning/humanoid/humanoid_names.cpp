@@ -72,6 +72,11 @@ const std::map<std::string, Role, std::less<>> kWords = {
     {"jawroot", Role::jaw},
     {"lowerjaw", Role::jaw},
     {"eyeball", Role::eye},
+    {"eyesmplhf", Role::eye},
+    // MetaHuman: "FACIAL_L_Eye"; VRoid: "J_Adj_L_FaceEye"
+    {"facialeye", Role::eye},
+    {"facialjaw", Role::jaw},
+    {"adjfaceeye", Role::eye},
     // others met in the world
     {"uparm", Role::upper_arm},
     {"loarm", Role::lower_arm},

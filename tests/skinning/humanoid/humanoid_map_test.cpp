@@ -429,6 +429,18 @@ TEST(FindHumanoid, KnowsCharacterCreatorNames) {
                             {H::left_middle_1, "CC_Base_L_Mid1"}}));
 }
 
+// SMPL-X, MetaHuman, VRoid; what lies about the eyes of MetaHumans is no eye.
+TEST(ReadJointName, KnowsEyesAndJaws) {
+    for (const char* name : {"left_eye_smplhf", "FACIAL_L_Eye", "J_Adj_L_FaceEye"}) {
+        EXPECT_EQ(read_joint_name(name).role, Role::eye) << name;
+        EXPECT_EQ(read_joint_name(name).side, Side::left) << name;
+    }
+    EXPECT_EQ(read_joint_name("FACIAL_C_Jaw").role, Role::jaw);
+    for (const char* name : {"FACIAL_L_EyeParallel", "FACIAL_L_EyesackUpper", "FACIAL_L_EyelidUpperA",
+                             "FACIAL_C_Jawline", "FACIAL_C_FacialRoot", "FACIAL_C_Neck1Root"})
+        EXPECT_EQ(read_joint_name(name).role, Role::none) << name;
+}
+
 TEST(FindHumanoid, KnowsSidesInTwoLetters) {
     expect_parts_found(rig({{H::hips, "pelvis_JNT"},
                             {H::spine, "spine_a_JNT"},
