@@ -122,8 +122,12 @@ MarkupLanguage recognise_markup(std::string_view text) {
 }
 
 MarkedText parse_marked_text(const MarkupSource& source, MarkupLanguage language) {
-    const MarkupSource clean = checked(source);
+    MarkupSource clean = checked(source);
+    BlankedEmoji emoji = blank_emoji(clean.text);
+    clean.text = std::move(emoji.text);
     MarkedText text = parse(clean, language);
+    if (emoji.count > 0)
+        text.notes.push_back(format("{}: its {} emoji are not spoken", source.name, emoji.count));
     // An SSML that names languages is right about them.
     if (language != MarkupLanguage::ssml || clean.text.find("xml:lang") == std::string::npos) {
         std::vector<std::string> words;

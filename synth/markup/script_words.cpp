@@ -63,6 +63,32 @@ std::size_t character_length(std::string_view text) {
     return bad ? 0 : length;
 }
 
+constexpr std::string_view kJoiner = "\u200d";
+
+enum class EmojiPart {
+    none,
+    picture,
+    joined,  // if it follows a part: a joiner, a selector of its colours, a tag
+};
+
+EmojiPart emoji_part(std::string_view character) {
+    const auto between = [&](std::string_view first, std::string_view last) {
+        return character.size() == first.size() && first <= character && character <= last;
+    };
+    // Symbols of weather and games to dingbats, clocks and players, stars and squares; pictographs and flags.
+    for (const auto& [first, last] :
+         std::to_array<std::array<std::string_view, 2>>({{"\u2600", "\u27bf"},
+                                                         {"\u231a", "\u231b"},
+                                                         {"\u23e9", "\u23fa"},
+                                                         {"\u2b1b", "\u2b1c"},
+                                                         {"\u2b50", "\u2b55"},
+                                                         {"\U0001f000", "\U0001faff"}}))
+        if (between(first, last)) return EmojiPart::picture;
+    const bool is_joined = character == kJoiner || between("\ufe0e", "\ufe0f") || character == "\u20e3" ||
+                           between("\U000e0020", "\U000e007f");
+    return is_joined ? EmojiPart::joined : EmojiPart::none;
+}
+
 }  // namespace
 
 bool holds_any(std::string_view text, std::span<const std::string_view> signs) {
@@ -120,6 +146,23 @@ std::string plain_letters(std::string_view word) {
         }
     }
     return to_lower(letters);
+}
+
+BlankedEmoji blank_emoji(std::string_view text) {
+    BlankedEmoji blanked{.text = std::string(text)};
+    EmojiPart before = EmojiPart::none;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t length = character_length(text.substr(at));
+        EmojiPart part = emoji_part(text.substr(at, length));
+        if (part == EmojiPart::joined && before == EmojiPart::none) part = EmojiPart::none;
+        // A picture that is joined to the one before is a part of it.
+        const bool is_new = part == EmojiPart::picture && !text.substr(0, at).ends_with(kJoiner);
+        blanked.count += is_new ? 1 : 0;
+        if (part != EmojiPart::none) blanked.text.replace(at, length, length, ' ');
+        before = part;
+        at += length;
+    }
+    return blanked;
 }
 
 std::size_t count_characters(std::string_view text) {

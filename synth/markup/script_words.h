@@ -34,6 +34,15 @@ bool ends_with_break(std::string_view script);
 // Letters as in a word list: lower case (Latin letters with accents too), apostrophes straight.
 std::string plain_letters(std::string_view word);
 
+// The same bytes with spaces in place of emoji, which voices would name ("smiling face"), and how many there were.
+// Ours: the blocks of symbols and pictographs of Unicode, with what joins and varies them (Unicode, UTS 51). `text` is
+// UTF-8.
+struct BlankedEmoji {
+    std::string text;
+    std::size_t count = 0;
+};
+BlankedEmoji blank_emoji(std::string_view text);
+
 // How many characters a UTF-8 text has.
 std::size_t count_characters(std::string_view text);
 

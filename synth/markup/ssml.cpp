@@ -255,6 +255,8 @@ std::vector<ScriptWord> words_between_tags(std::string_view script) {
     return words;
 }
 
+constexpr std::string_view kNotEmphasised = "none";  // the level of words that the rules must not emphasise
+
 class EmphasisReader {
   public:
     EmphasisReader(const MarkedText& text, std::size_t root) : text_(text), root_(root) {}
@@ -276,13 +278,14 @@ class EmphasisReader {
         const std::string level = attribute_of(element, "level").value_or("moderate");
         const std::size_t first = word_at(text_.words, element.at - root_);
         const std::size_t last = word_from(text_.words, end - root_);
-        if (level == "none" || first >= last) return;
-        const std::string value = known_value(function_kind(MarkKind::emphasis), level);
+        if (first >= last) return;
+        const bool is_none = level == kNotEmphasised;
+        const std::string value = is_none ? level : known_value(function_kind(MarkKind::emphasis), level);
         marks.push_back({.kind = MarkKind::emphasis,
                          .value = value,
                          .first_word = first,
                          .end_word = last,
-                         .weight = default_weight(MarkKind::emphasis, value)});
+                         .weight = is_none ? 0 : default_weight(MarkKind::emphasis, value)});
     }
 
     const MarkedText& text_;
@@ -321,6 +324,9 @@ MarkedText parse_ssml(const MarkupSource& source) {
     EmphasisReader emphases(text, begin);
     emphases.read(root, begin + text.script.size());
     set_emphases(text, std::move(emphases.marks));
+    std::erase_if(text.marks, [](const Mark& mark) {
+        return mark.kind == MarkKind::emphasis && mark.value == kNotEmphasised;
+    });
     return text;
 }
 

@@ -141,6 +141,17 @@ constexpr std::array<std::string_view, 2> kEllipses = {"..", "\u2026"};
 constexpr std::array<std::string_view, 4> kDashes = {"\u2014", "\u2013", " - ", "--"};
 constexpr std::array<std::string_view, 2> kBrackets = {"(", ")"};
 
+bool is_small(char letter) {
+    return letter >= 'a' && letter <= 'z';
+}
+
+// "u.s"
+bool are_initials(std::string_view letters) {
+    for (std::size_t i = 0; i < letters.size(); ++i)
+        if (i % 2 == 0 ? !is_small(letters[i]) : letters[i] != '.') return false;
+    return letters.size() >= 3;
+}
+
 Pause Marker::find_pause(std::size_t word) const {
     const bool is_last = word + 1 == letters_.size();
     const std::size_t from = text_.words[word].end;
@@ -152,7 +163,9 @@ Pause Marker::find_pause(std::size_t word) const {
     pause.asks = holds_any(gap, kQuestions);
     pause.exclaims = holds_any(gap, kExclamations);
     const bool is_ellipsis = holds_any(gap, kEllipses);
-    const bool is_short = vocabulary_.is_abbreviation(letters_[word]) || letters_[word].size() == 1;
+    const bool goes_on = !is_last && is_small(text_.words[word + 1].text.front());
+    const bool is_short = vocabulary_.is_abbreviation(letters_[word]) || letters_[word].size() == 1 ||
+                          (goes_on && are_initials(letters_[word]));
     const auto full_stop = std::span(kStops).first(1), other_stops = std::span(kStops).subspan(1);
     const bool is_stop =
         (holds_any(gap, full_stop) && !is_ellipsis && (!is_short || is_last)) || holds_any(gap, other_stops);

@@ -12,6 +12,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::marks_in;
 using ::testing::Not;
 using testing::refusal_of;
@@ -66,6 +67,10 @@ TEST(Ssml, WhereTheAuthorEmphasisedTheRulesDoNot) {
     EXPECT_THAT(marks_in(parsed("One <emphasis>two <emphasis>three</emphasis></emphasis> <s>four</s>"),
                          MarkKind::emphasis),
                 ElementsAre("emphasis=medium(two three)", "emphasis=medium(three)"));
+    EXPECT_THAT(marks_in(parsed("An extraordinary day"), MarkKind::emphasis), Not(IsEmpty()));
+    EXPECT_THAT(
+        marks_in(parsed("An <emphasis level=\"none\">extraordinary</emphasis> day"), MarkKind::emphasis),
+        IsEmpty());
 }
 
 TEST(Ssml, SpeaksAliasesInPlaceOfWhatIsWritten) {

@@ -16,6 +16,7 @@ using ::testing::IsSupersetOf;
 using testing::mark_text;
 using testing::marks_in;
 using ::testing::Not;
+using ::testing::SizeIs;
 
 MarkedText marked(const std::string& text, const std::string& language = "en") {
     return parse_marked_text({.text = text, .language = language}, MarkupLanguage::plain);
@@ -43,6 +44,24 @@ TEST(MarkedText, NotesWordsOfAnotherLanguage) {
     };
     EXPECT_THAT(of_ssml("<speak>"), ElementsAre(HasSubstr("are French")));
     EXPECT_THAT(of_ssml("<speak xml:lang=\"fr\">"), IsEmpty());
+}
+
+TEST(MarkedText, HoldsNoEmoji) {
+    const MarkedText text =
+        marked("Well done \U0001f44d\U0001f3fd! I \u2764\ufe0f it \U0001f469\u200d\U0001f4bb.");
+    std::vector<std::string> words;
+    for (const ScriptWord& word : text.words) words.push_back(word.text);
+    EXPECT_THAT(words, ElementsAre("Well", "done", "I", "it"));
+    EXPECT_EQ(text.script.find('\xf0'), std::string::npos);
+    EXPECT_THAT(text.notes, ElementsAre("text: its 3 emoji are not spoken"));
+    EXPECT_THAT(marked("12 \u00a9 caf\u00e9 \u4e16\u754c \u0915\u094d\u200d\u0937").notes, IsEmpty());
+}
+
+// A sentence that ends has a pause behind it, of which its gestures make a boundary.
+TEST(MarkedText, GoesOnAfterInitials) {
+    const auto rhemes = [](const std::string& text) { return marks_in(marked(text), MarkKind::rheme); };
+    EXPECT_THAT(rhemes("We left the U.S. in May."), SizeIs(1));
+    EXPECT_THAT(rhemes("We left the U.S. Then we came back."), SizeIs(2));
 }
 
 TEST(Markdown, IsSpokenWithoutItsSigns) {
