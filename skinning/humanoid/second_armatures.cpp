@@ -26,6 +26,14 @@ std::vector<bool> joints_of_figure(const Avatar& avatar) {
     return inside;
 }
 
+// "Head.001" and "Head_1", as Blender and writers of glTF number a name that is there already, without the number.
+std::string_view without_number(std::string_view name) {
+    const size_t mark = name.find_last_not_of("0123456789");
+    const bool is_numbered = mark != std::string_view::npos && mark > 0 && mark + 1 < name.size() &&
+                             (name[mark] == '.' || name[mark] == '_');
+    return is_numbered ? name.substr(0, mark) : name;
+}
+
 // For each joint the one of the figure that it goes with; -1 for those of the figure and those that have none, (J).
 std::vector<int> counterparts(const Avatar& avatar, const std::vector<Mat4>& world) {
     const std::vector<Joint>& joints = avatar.skeleton.joints;
@@ -41,7 +49,8 @@ std::vector<int> counterparts(const Avatar& avatar, const std::vector<Mat4>& wor
     std::vector<int> goes_with(joints.size(), -1);
     for (size_t j = 0; j < joints.size(); ++j) {
         if (inside[j]) continue;
-        const auto twin = joint_of_name.find(joints[j].name);
+        auto twin = joint_of_name.find(joints[j].name);
+        if (twin == joint_of_name.end()) twin = joint_of_name.find(without_number(joints[j].name));
         const int parent = joints[j].parent;
         if (twin != joint_of_name.end() && distance(place(twin->second), place(static_cast<int>(j))) < near) {
             goes_with[j] = twin->second;

@@ -20,13 +20,14 @@ struct Twice {
     Avatar avatar;
     size_t joints = 0, surfaces = 0;  // of the humanoid
 };
-Twice dressed(const Vec3& aside) {
+Twice dressed(const Vec3& aside, const std::string& number = "") {
     Avatar avatar = read_avatar(testing::test_file("made/makehuman.glb"));
     std::erase_if(avatar.surfaces, [](const Surface& surface) { return surface.skin < 0; });
     const size_t joints = avatar.skeleton.joints.size(), skins = avatar.skins.size(),
                  surfaces = avatar.surfaces.size();
     for (size_t j = 0; j < joints; ++j) {
         Joint twin = avatar.skeleton.joints[j];
+        twin.name += number;
         if (twin.parent < 0) twin.rest.translation += aside;
         if (twin.parent >= 0) twin.parent += static_cast<int>(joints);
         avatar.skeleton.joints.push_back(twin);
@@ -61,9 +62,13 @@ void expect_shirt_on_body(const Twice& twice, const Pose& pose) {
 }
 
 TEST(SecondArmatures, GoWithTheBody) {
+    for (const char* number : {"_1", ".001", ""}) {
+        Twice numbered = dressed({0, 0, 0}, number);
+        join_second_armatures(numbered.avatar);
+        expect_shirt_on_body(numbered, with_bent_arm(numbered.avatar));
+    }
     Twice twice = dressed({0, 0, 0});
     join_second_armatures(twice.avatar);
-    expect_shirt_on_body(twice, with_bent_arm(twice.avatar));
     EXPECT_THAT(
         twice.avatar.humanoid_notes,
         Contains("mesh \"Shirt\" has an armature of its own; it goes with the joints of the same names in "
