@@ -75,6 +75,8 @@ EmojiPart emoji_part(std::string_view character) {
     const auto between = [&](std::string_view first, std::string_view last) {
         return character.size() == first.size() && first <= character && character <= last;
     };
+    // The colours of skin vary what is before them.
+    if (between("\U0001f3fb", "\U0001f3ff")) return EmojiPart::joined;
     // Symbols of weather and games to dingbats, clocks and players, stars and squares; pictographs and flags.
     for (const auto& [first, last] :
          std::to_array<std::array<std::string_view, 2>>({{"\u2600", "\u27bf"},

@@ -576,7 +576,7 @@ TEST_F(ArkitFile, IsReadAsJson) {
         {"weights": [0, 0, 1.004], "time": 0.033333, "rotation": [0, 0.1, 0]}]})");
     EXPECT_EQ(motion.fps, 60);
     ASSERT_EQ(motion.frames, 3u);
-    EXPECT_FLOAT_EQ(intensity_of(motion, 0, {26, FaceSide::both}), 3);
+    EXPECT_FLOAT_EQ(intensity_of(motion, 0, {26, FaceSide::both}), 5 * 0.6f / 0.7f);
     EXPECT_FLOAT_EQ(intensity_of(motion, 0, {12, FaceSide::left}), 2.5f);
     EXPECT_NEAR(intensity_of(motion, 1, {34, FaceSide::both}), 2, 1e-3);
     EXPECT_FLOAT_EQ(intensity_of(motion, 2, {34, FaceSide::both}), 5);
