@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "core/cores.h"
+#include "core/error.h"
 #include "core/files/files.h"
+#include "core/text.h"
 #include "raster/ffmpeg/clip_writer.h"
 #include "raster/images/frame_stack.h"
 #include "raster/images/image_file.h"
@@ -11,10 +13,28 @@
 namespace chironomia::study {
 namespace {
 
+namespace fs = std::filesystem;
+
+// Before anything is drawn: the folder is replaced as a whole, and the one that the program works in cannot be.
+FrameStack new_stack(const fs::path& pattern) {
+    FrameStack stack = parse_stack_pattern(pattern);
+    const fs::path folder = stack.folder.empty() ? "." : stack.folder;
+    std::error_code problem;
+    const bool works_here = fs::equivalent(folder, fs::current_path(), problem);
+    const bool holds_something = fs::is_directory(folder, problem) && !fs::is_empty(folder, problem);
+    if (works_here || holds_something) {
+        throw Error(format("{}: frames get a new folder of their own, and {} {}; write them like {}",
+                           pattern.string(), folder.string(),
+                           works_here ? "is the one you are in" : "already holds something",
+                           (stack.folder / "frames" / pattern.filename()).string()));
+    }
+    return stack;
+}
+
 // A stack grows in a hidden folder beside its own, which it replaces in one move at the end.
 struct StackWriter {
     StackWriter(const ClipJob& job)
-        : stack(parse_stack_pattern(job.out)), folder(stack.folder, PendingOutput::Kind::folder) {
+        : stack(new_stack(job.out)), folder(stack.folder, PendingOutput::Kind::folder) {
         stack.folder = folder.path();
     }
 

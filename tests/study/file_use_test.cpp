@@ -270,6 +270,27 @@ TEST_F(FileUse, SaysThatAFileMayNotGrow) {
     EXPECT_FALSE(fs::exists(in("c.mp4")));
 }
 
+// A name without a folder is the first that people write; all frames were drawn before it was refused.
+TEST_F(FileUse, WritesFramesIntoAFolderOfTheirOwn) {
+    const std::string render = "$PROGRAM render --motion a.bvh --size 64x36 --frames 0:2 --quiet --out ";
+    for (const std::string name : {"f_%d.png", "./f_%d.png"}) {
+        EXPECT_EQ(run_line(render + name), 3);
+        EXPECT_THAT(
+            read_text(in("err")),
+            HasSubstr(name +
+                      ": frames get a new folder of their own, and . is the one you are in; write them "
+                      "like "));
+        EXPECT_THAT(read_text(in("err")), HasSubstr("frames/f_%d.png\n"));
+    }
+    EXPECT_EQ(run_line(render + "frames/f_%d.png"), 0) << read_text(in("err"));
+    EXPECT_EQ(run_line(render + "frames/f_%d.png"), 3);
+    EXPECT_THAT(
+        read_text(in("err")),
+        HasSubstr(
+            "frames/f_%d.png: frames get a new folder of their own, and frames already holds something; "
+            "write them like frames/frames/f_%d.png\n"));
+}
+
 // Nothing limits root: nobody starts the program, with root's rights to files.
 TEST_F(FileUse, SaysThatThreadsAreRefused) {
     // A stack larger than the address space: no thread can have one, whoever runs this.
