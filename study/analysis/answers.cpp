@@ -153,8 +153,10 @@ void refuse_twice(std::map<std::string, std::string>& seen, const std::string& n
     if (name.empty()) return;
     const auto [before, is_new] = seen.emplace(name, file);
     if (!is_new)
-        throw Error(format("{}: {} \"{}\" is already in {}; give the answers of each participant once", file,
-                           what, name, before->second));
+        throw Error(format(
+            "{}: {} \"{}\" is already in {}; give the answers of each participant once; if these are two "
+            "people, as of two waves, rename one of them",
+            file, what, name, before->second));
 }
 
 bool has_visit(const Json& answers) {

@@ -159,6 +159,7 @@ Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t n
     Json people = json_of(all);
     people["withdrawn"] = store.count_withdrawals();
     people["wanted"] = study.wanted ? Json(*study.wanted) : Json(nullptr);
+    const std::size_t taken = count_taken(store.loads(study.sheets.size(), now - timeout));
     Json sheets = Json::array(), pairs = Json::array(), places = Json::array();
     for (std::size_t i = 0; i < by_sheet.size(); ++i) {
         sheets.push_back({{"sheet", i}});
@@ -173,6 +174,7 @@ Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t n
     }
     return {{"time", utc_text(now)},
             {"participants", std::move(people)},
+            {"full", study.wanted && taken >= *study.wanted},
             {"answers", store.count_answers()},
             {"sheets", std::move(sheets)},
             {"pairs", std::move(pairs)},
@@ -216,6 +218,10 @@ std::string operator_page(const ServedStudy& study, const Json& progress) {
             format("<p role=\"alert\"><strong>{}: {}</strong></p>\n", incident.at("time").get<std::string>(),
                    escape_html(incident.at("what").get<std::string>()));
     }
+    if (progress.at("full") == true)
+        body +=
+            "<p>Newcomers are sent away: as many as are wanted have finished or are at work. To let more come, start "
+            "the server again with --participants N, the number of all.</p>\n";
     body += note_of_those_sent_away(progress.at("sent_away"));
     body += table("Participants", all, Json::array({progress.at("participants")}));
     if (!progress.at("pairs").empty()) {

@@ -86,6 +86,7 @@ std::string token_for(const ServeOptions& options) {
 
 ServedStudy study_for(const ServeOptions& options) {
     ServedStudy study = read_served_study(options.study);
+    if (options.participants) study.wanted = options.participants;
     if (!options.completion_url.empty()) study.completion.url = options.completion_url;
     if (!options.failed_url.empty()) study.completion.failed_url = options.failed_url;
     return study;
@@ -124,6 +125,19 @@ struct StudyServer::Parts {
         leave_mark(options.study);
         check_sheets();
         store.end_signs_of_life_at(options.clocks.unix_time());
+        warn_if_full(options);
+    }
+
+    // A second wave needs a new number; without a word its participants would be sent away.
+    void warn_if_full(const ServeOptions& options) {
+        const std::int64_t timeout = std::llround(options.timeout_minutes * 60'000);
+        const std::size_t taken =
+            count_taken(store.loads(study.sheets.size(), options.clocks.unix_time() - timeout));
+        if (!study.wanted || taken < *study.wanted) return;
+        options.complain(
+            format("note: {} of {} participants have finished or are at work, so newcomers are sent away; "
+                   "--participants N lets N take part in all",
+                   taken, *study.wanted));
     }
 
     // A build must not replace a study whose answers lie elsewhere. Where nothing can be written nothing can be built.

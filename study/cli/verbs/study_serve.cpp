@@ -46,6 +46,10 @@ void add_study_serve(CLI::App& study, std::optional<Command>& result) {
                      "Holds the operator's token, 16 or more of a-z A-Z 0-9 - _ [that of the environment's "
                      "CHIRONOMIA_OPERATOR_TOKEN, else a random one]")
         ->type_name("F");
+    verb->add_option("--participants", options.participants,
+                     "How many take part in all, as in a second wave [as the plan says]")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
     verb->add_option("--timeout", options.timeout_minutes,
                      "Minutes after which the place of a silent participant is free again [60]")
         ->type_name("MINUTES")

@@ -444,6 +444,7 @@ TEST(AnalyseCli, SaysWhatIsWrong) {
     const Outcome twice = run_chironomia({"study", "analyse", study, "--answers", answers, answers});
     EXPECT_EQ(twice.exit_code, 3);
     EXPECT_THAT(twice.err, HasSubstr("participant \"simulated-1\" is already in"));
+    EXPECT_THAT(twice.err, HasSubstr("if these are two people, as of two waves, rename one of them"));
     EXPECT_EQ(run_chironomia({"study", "analyse", study}).exit_code, 2);
     const Outcome nowhere = run_chironomia({"study", "analyse", "--answers", answers});
     EXPECT_EQ(nowhere.exit_code, 2);

@@ -11,6 +11,7 @@
 #include "study/record/study_folder.h"
 #include "study/server/database.h"
 #include "tests/study/process.h"
+#include "tests/study/raw_client.h"
 #include "tests/study/served_sample.h"
 #include "tests/support/support.h"
 
@@ -94,6 +95,48 @@ TEST(ServeCli, TakesTheTokenFromAFileOrTheEnvironmentAndPrintsItNot) {
     unsetenv("CHIRONOMIA_OPERATOR_TOKEN");
     EXPECT_EQ(weak.exit_code, 3);
     EXPECT_THAT(weak.err, HasSubstr("the operator's token: has 5 letters; at least 16"));
+}
+
+// The port at which a server says that participants find it.
+int port_in(const std::string& out) {
+    const std::string address = "participants  http://127.0.0.1:";
+    return std::atoi(out.c_str() + out.find(address) + address.size());
+}
+
+// A study for two: a third one is sent away until the server is started for four, who take the sheets in turn.
+TEST(ServeCli, LetsASecondWaveTakePart) {
+    const TemporaryFolder folder;
+    write_sample_study(folder.path(), {.sheets = 2}, {{"participants", 2}});
+    std::vector<std::string> words = {"study", "serve", folder.path().string(), "--port", "0"};
+    const auto begin = [](int port, const std::string& name) {
+        return testing::RawClient(port).post("/api/begin", {{"participant", name}}).value();
+    };
+    Json first;
+    {
+        RunningChironomia server(words);
+        const int port = port_in(server.wait_for_out("operator"));
+        first = begin(port, "ada").json();
+        EXPECT_EQ(begin(port, "bob").json()["sheet"], 1);
+        EXPECT_EQ(begin(port, "eve").status, 409);
+        const Outcome outcome = server.end(SIGTERM);
+        EXPECT_EQ(outcome.err, "");
+    }
+    {
+        RunningChironomia server(words);
+        EXPECT_THAT(
+            server.wait_for_err("in all"),
+            HasSubstr("note: 2 of 2 participants have finished or are at work, so newcomers are sent away; "
+                      "--participants N lets N take part in all\n"));
+    }
+    words.insert(words.end(), {"--participants", "4"});
+    RunningChironomia server(words);
+    const int port = port_in(server.wait_for_out("operator"));
+    EXPECT_EQ(begin(port, "eve").json()["sheet"], 0);
+    EXPECT_EQ(begin(port, "fay").json()["sheet"], 1);
+    EXPECT_EQ(begin(port, "gus").status, 409);
+    EXPECT_EQ(begin(port, "ada").json()["pages"], first["pages"]) << "who came before goes on";
+    const Outcome outcome = server.end(SIGTERM);
+    EXPECT_EQ(outcome.err, "");
 }
 
 TEST(ServeCli, RefusesASecondServer) {

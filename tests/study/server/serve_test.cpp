@@ -463,6 +463,7 @@ TEST_F(Served, ShowsTheOperatorHowFarTheStudyIs) {
     EXPECT_EQ(progress["participants"],
               Json::parse(R"({"begun": 2, "finished": 0, "active": 2, "dropped_out": 0,
         "failed_checks": 0, "declined": 0, "withdrawn": 0, "wanted": 3})"));
+    EXPECT_EQ(progress["full"], false);
     EXPECT_EQ(progress["answers"], 2);
     EXPECT_EQ(progress["sheets"].size(), 4u);
     // Sheet 0 shows the videos as listed, sheet 1 from right to left.
