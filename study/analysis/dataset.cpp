@@ -32,13 +32,6 @@ std::vector<std::size_t> compared_on(const KeyPage& page, const StudyKey& key) {
     return conditions;
 }
 
-int strength_of(int steps, std::size_t answers) {
-    const int most = static_cast<int>(answers) / 2;
-    if (steps == 0) return 0;
-    const int strength = most > 1 && std::abs(steps) == most ? 2 : 1;
-    return steps > 0 ? strength : -strength;
-}
-
 // All that joining one answer needs to know.
 struct Joining {
     const StudyKey& key;
@@ -93,8 +86,7 @@ void add_preference(Dataset& data, const Joining& join, const Asked& asked, cons
                           .second = std::max(compared[0], compared[1]),
                           .left = mirrored ? compared[1] : compared[0],
                           .clip = join.page.clip,
-                          .value = towards_first,
-                          .strength = strength_of(towards_first, asked.question.answers.size()),
+                          .strength = towards_first,
                           .reasons = chosen_reasons(reasons, asked.question.id),
                           .other_reason = other_reason(reasons, asked.question.id)};
     if (join.key.layout == Layout::triplet) {

@@ -24,8 +24,9 @@ struct Preference {
     std::size_t second = 0;
     std::size_t left = 0;  // which of them stood left
     std::string clip;
-    int value = 0;     // steps from equal towards the first; negative towards the second
-    int strength = 0;  // 2: the first clearly, 1: slightly, 0: equal, -1, -2
+    // Steps of the question from equal towards the first: of five answers 2: the first clearly, 1: slightly, 0: equal,
+    // -1, -2; of seven 3 to -3.
+    int strength = 0;
     std::vector<std::string> reasons;
     std::string other_reason;
 };

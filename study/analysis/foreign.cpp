@@ -137,7 +137,7 @@ void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
                           .clip = clip,
                           .reasons = battle.reasons(),
                           .other_reason = battle.at("juiceOtherReason")};
-    preference.value = preference.strength = left < right ? towards_left : -towards_left;
+    preference.strength = left < right ? towards_left : -towards_left;
     add_reasons(data.questions[preference.question], preference.reasons);
     ++data.raters[preference.participant].answered;
     data.preferences.push_back(std::move(preference));
@@ -181,7 +181,7 @@ void add_hemvip_pair(Dataset& data, const HemvipTrial& trial, const JsonValue& v
                           .second = std::max(left, right),
                           .left = left,
                           .clip = trial.id};
-    preference.value = preference.strength = left < right ? towards_left : -towards_left;
+    preference.strength = left < right ? towards_left : -towards_left;
     data.preferences.push_back(std::move(preference));
 }
 

@@ -33,8 +33,8 @@ Table rater_votes_table(const TableSource& of) {
         .note =
             "The first test of preferences: one number for each participant. The share is the mean over "
             "participants of how often they preferred the first, ties half, with Student's interval; the score "
-            "is that of how strongly, from -2 (clearly the second) to 2 (clearly the first), as the mean "
-            "appropriateness score of GENEA 2023; p is "
+            "is that of how strongly, in steps of the question from equal (of five answers from -2, clearly the "
+            "second, to 2, clearly the first, as the mean appropriateness score of GENEA 2023); p is "
             "of Fisher's randomization test of each participant's wins less losses, exact, and Holm's is "
             "adjusted for all pairs of the question. Participants are taken as independent, and as likely "
             "to lean either way if the conditions are equal; votes of one participant need not be "
@@ -110,7 +110,8 @@ Table votes_table(const TableSource& of) {
             "Pearson; p is that of the exact test of one half, Holm's is adjusted for all pairs of the "
             "question. Both take votes as independent, so that they find too much where participants differ "
             "and vote more than once: prefer the test of participants; the interval of the weighted share "
-            "(ties half, clear answers double) is from resampled participants",
+            "(ties half, others by their steps from equal, so that clear ones of five answers count double) is from resampled "
+            "participants; clear answers are those that are further from equal than one step",
         .columns = {{"question", "question"},
                     {"first", "first"},
                     {"second", "second"},
@@ -179,8 +180,8 @@ Table elo_table(const TableSource& of) {
         .id = "elo",
         .title = "Strengths on the scale of Elo",
         .note =
-            "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one, 1 to "
-            "either for a tie; all votes of a group count, also those between a condition and what is made of it, "
+            "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one (2 for each step "
+            "from equal), 1 to either for a tie; all votes of a group count, also those between a condition and what is made of it, "
             "but a group of two such has a share instead; 1000 is the mean of a group, 200 more are preferred in "
             "76 % of decided votes; intervals of 95 % from resampled participants, who are taken as independent; the clips "
             "are taken as given",

@@ -69,8 +69,9 @@ struct RaterVotes {
     double share = 0;  // mean share of the first: wins, and half of the ties, among all votes
     std::optional<Interval>
         share_95;      // by Student's t, cut at 0 and 1; none of one participant, or where all have the same
-    double score = 0;  // mean strength of the votes for the first, in [-2, 2], over the means of participants
-    std::optional<Interval> score_95;  // as share_95, cut at -2 and 2
+    double score = 0;  // mean strength of the votes for the first, over the means of participants; of five
+                       // answers in [-2, 2]
+    std::optional<Interval> score_95;  // as share_95, cut at the strongest answers
     double p = 1;                      // sign_flip_test of wins less losses
     double holm_p = 1;                 // among all pairs of the question
 };
@@ -80,7 +81,7 @@ struct VotePair {
     std::size_t first = 0;  // condition
     std::size_t second = 0;
     std::size_t participants = 0;
-    std::size_t clear_wins = 0;  // of the first
+    std::size_t clear_wins = 0;  // of the first, by more than a step
     std::size_t wins = 0;        // all
     std::size_t ties = 0;
     std::size_t losses = 0;  // all

@@ -226,7 +226,7 @@ Cells ratings_of(const Dataset& data, std::size_t question) {
     const bool prefers = data.questions[question].kind == QuestionKind::preference;
     if (prefers) {
         for (const Preference& each : data.preferences) {
-            if (each.question == question) table[each.unit][each.participant] = each.value;
+            if (each.question == question) table[each.unit][each.participant] = each.strength;
         }
         return table;
     }

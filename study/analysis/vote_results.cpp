@@ -50,7 +50,8 @@ std::optional<Interval> cut(const std::optional<Interval>& interval, double leas
     return Interval{std::max(least, interval->low), std::min(most, interval->high)};
 }
 
-RaterVotes rater_votes_of(const Ballot& ballot) {
+// `most` steps away from equal is the last answer.
+RaterVotes rater_votes_of(const Ballot& ballot, int most) {
     std::vector<int> balances(ballot.participants, 0), votes(ballot.participants, 0);
     std::vector<int> strengths(ballot.participants, 0);
     for (const Vote& vote : ballot.votes) {
@@ -72,7 +73,7 @@ RaterVotes rater_votes_of(const Ballot& ballot) {
     result.share = of_shares.mean;
     result.share_95 = cut(of_shares.mean_95, 0, 1);
     result.score = of_scores.mean;
-    result.score_95 = cut(of_scores.mean_95, -2, 2);
+    result.score_95 = cut(of_scores.mean_95, -most, most);
     return result;
 }
 
@@ -86,8 +87,8 @@ VotePair pair_of(const Dataset& data, std::size_t a, std::size_t b) {
     return {.first = a, .second = b, .made_of_it = is_made_of(data, b, a)};
 }
 
-// `pair` with its votes.
-VotePair counted(VotePair pair, const Preferences& preferences, const Resampling& resampling) {
+// `pair` with its votes, which are at `most` so many steps away from equal.
+VotePair counted(VotePair pair, const Preferences& preferences, int most, const Resampling& resampling) {
     const Ballot ballot = ballot_of(preferences, {pair.first, pair.second});
     for (const Vote& vote : ballot.votes) {
         const int strength = vote.first == 0 ? vote.strength : -vote.strength;
@@ -98,7 +99,7 @@ VotePair counted(VotePair pair, const Preferences& preferences, const Resampling
         pair.clear_losses += strength < -1;
     }
     pair.participants = ballot.participants;
-    pair.raters = rater_votes_of(ballot);
+    pair.raters = rater_votes_of(ballot, most);
     pair.p = exact_half_test(pair.wins, pair.wins + pair.losses);
     pair.share = *preference_share(ballot.votes, ballot.participants, resampling);
     return pair;
@@ -183,10 +184,11 @@ std::vector<ReasonCount> count_reasons(const Question& question, const Preferenc
 VoteResult compute_question(const Dataset& data, std::size_t question, const Preferences& preferences,
                             const Resampling& resampling) {
     VoteResult result{.question = question};
+    const int most = static_cast<int>(data.questions[question].answers.size()) / 2;
     std::set<std::pair<std::size_t, std::size_t>> pairs;
     for (const Preference* each : preferences) pairs.insert({each->first, each->second});
     for (const auto& [first, second] : pairs)
-        result.pairs.push_back(counted(pair_of(data, first, second), preferences, resampling));
+        result.pairs.push_back(counted(pair_of(data, first, second), preferences, most, resampling));
     adjust(result.pairs, [](VotePair& pair) -> VotePair& { return pair; });
     adjust(result.pairs, [](VotePair& pair) -> RaterVotes& { return pair.raters; });
     result.contrasts = contrast(result.pairs);

@@ -15,7 +15,7 @@ constexpr double kBridge = 0.1;  // of a vote, where strengths have no bound
 
 void add_vote(VoteTable& table, const Vote& vote) {
     assert(vote.first != vote.second);
-    const double weight = std::abs(vote.strength) >= 2 ? kClearWeight : kSlightWeight;
+    const double weight = kStepWeight * std::abs(vote.strength);
     if (vote.strength == 0) {
         table.at(vote.first, vote.second) += kTieWeight;
         table.at(vote.second, vote.first) += kTieWeight;

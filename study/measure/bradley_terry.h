@@ -16,12 +16,14 @@ struct Vote {
     std::size_t participant = 0;
     std::size_t first = 0;  // condition
     std::size_t second = 0;
-    int strength = 0;  // 2: the first clearly, 1: slightly, 0: equal, -1: the second slightly, -2: clearly
+    // Steps from equal: 1: the first slightly, 2: clearly, 3 and more: where there are more answers than five; 0: equal;
+    // below 0: the second.
+    int strength = 0;
 };
 
-// What a vote counts. A tie is one for each of the two.
-inline constexpr double kClearWeight = 4;
-inline constexpr double kSlightWeight = 2;
+// What a vote counts: a slight one 2 and a clear one 4, as in GENEA's leaderboard, and so on for further steps (ours). A
+// tie is one for each of the two.
+inline constexpr double kStepWeight = 2;
 inline constexpr double kTieWeight = 1;
 
 // (K, K): the weight of the votes for the row's condition against the column's.

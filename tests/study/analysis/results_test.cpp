@@ -108,7 +108,6 @@ Preference vote(std::size_t participant, int strength, std::size_t left) {
             .first = 0,
             .second = 1,
             .left = left,
-            .value = strength,
             .strength = strength};
 }
 
@@ -413,7 +412,7 @@ TEST(PublishedResults, OfForcedChoicesAreShares) {
     data.questions = {{.id = "dynamics", .kind = QuestionKind::preference, .answers = {"A", "B"}}};
     for (std::size_t p = 0; p < 3; ++p)
         data.preferences.push_back(
-            {.participant = p, .first = 0, .second = 1, .value = p < 2 ? 1 : -1, .strength = p < 2 ? 1 : -1});
+            {.participant = p, .first = 0, .second = 1, .strength = p < 2 ? 1 : -1});
     for (const Table& table : tables_of(data, results_of(data))) {
         if (table.id != "published") continue;
         ASSERT_EQ(table.rows.size(), 1u);
