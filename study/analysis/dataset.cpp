@@ -301,7 +301,7 @@ struct Uncounted {
 // items.
 std::size_t add_scale(Dataset& data, const Joining& join, std::size_t index,
                       const std::vector<Score>& given) {
-    const Scale& scale = join.key.scales[index];
+    const Scale& scale = data.scales[index];
     const std::size_t question = data.first_scale() + index;
     std::size_t incomplete = 0;
     std::map<std::size_t, std::map<std::size_t, Score>> by_unit;  // and by item
@@ -334,7 +334,10 @@ std::size_t add_scales(Dataset& data, const Joining& join, std::size_t scores_be
     std::size_t incomplete = 0;
     const std::vector<Score> given(data.scores.begin() + static_cast<std::ptrdiff_t>(scores_before),
                                    data.scores.end());
-    for (std::size_t i = 0; i < join.key.scales.size(); ++i) incomplete += add_scale(data, join, i, given);
+    for (std::size_t i = 0; i < data.scales.size(); ++i) {
+        if (data.passes_of_scales[i].value_or(join.answer.pass) == join.answer.pass)
+            incomplete += add_scale(data, join, i, given);
+    }
     return incomplete;
 }
 
@@ -451,23 +454,51 @@ Question as_question(const Scale& scale, const std::vector<Question>& questions)
             .most = range.most};
 }
 
-// What is asked in several passes, as without sound and with it, is as many questions.
-void add_questions_of_passes(Dataset& data, const StudyKey& key, const StudyPages& pages) {
+// Of each question the passes that ask it.
+std::vector<std::set<std::size_t>> passes_of_questions(const StudyKey& key, const StudyPages& pages) {
     std::vector<std::set<std::size_t>> passes(key.questions.size());
     for (const StudyPage& page : pages.pages) {
         for (std::size_t pass = 0; pass < page.passes.size(); ++pass)
             for (const std::size_t question : page.passes[pass].questions) passes[question].insert(pass);
     }
+    return passes;
+}
+
+std::string id_in_pass(const std::string& id, std::size_t pass) {
+    return format("{}-pass-{}", id, pass + 1);
+}
+
+// What is asked in several passes, as without sound and with it, is as many questions.
+void add_questions_of_passes(Dataset& data, const StudyKey& key,
+                             const std::vector<std::set<std::size_t>>& passes) {
     for (std::size_t q = 0; q < key.questions.size(); ++q) {
         if (passes[q].size() < 2) continue;
         for (const std::size_t pass : passes[q]) {
             const bool is_first = pass == *passes[q].begin();
             if (!is_first) data.questions.push_back(key.questions[q]);
             const std::size_t index = is_first ? q : data.questions.size() - 1;
-            data.questions[index].id = format("{}-pass-{}", key.questions[q].id, pass + 1);
+            data.questions[index].id = id_in_pass(key.questions[q].id, pass);
             data.of_passes[{q, pass}] = index;
         }
     }
+}
+
+// And so is a scale whose items are.
+void add_scales_of_passes(Dataset& data, const StudyKey& key,
+                          const std::vector<std::set<std::size_t>>& passes) {
+    for (const Scale& scale : key.scales) {
+        const std::set<std::size_t>& asked = passes[scale.items.front()];
+        if (asked.size() < 2) {
+            data.scales.push_back(scale);
+            data.passes_of_scales.push_back(std::nullopt);
+        }
+        for (const std::size_t pass : asked.size() < 2 ? std::set<std::size_t>{} : asked) {
+            data.scales.push_back(scale);
+            data.scales.back().id = id_in_pass(scale.id, pass);
+            data.passes_of_scales.push_back(pass);
+        }
+    }
+    for (const Scale& scale : data.scales) data.questions.push_back(as_question(scale, key.questions));
 }
 
 void check_questionnaire(const StudyPages& pages, const Respondent& participant) {
@@ -514,11 +545,11 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                  .seed = key.seed,
                  .conditions = key.conditions,
                  .questions = key.questions,
-                 .scales = key.scales,
                  .questionnaire = pages.questionnaire,
                  .rules = key.exclusions};
-    add_questions_of_passes(data, key, pages);
-    for (const Scale& scale : key.scales) data.questions.push_back(as_question(scale, key.questions));
+    const std::vector<std::set<std::size_t>> passes = passes_of_questions(key, pages);
+    add_questions_of_passes(data, key, passes);
+    add_scales_of_passes(data, key, passes);
     for (const KeyCondition& condition : key.conditions) data.cells.push_back(condition.name);
     add_cells_of_options(data, key);
     Uncounted uncounted;
@@ -532,8 +563,8 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
         join_participant(data, {key, pages, participant}, uncounted);
     }
     note_uncounted(data, uncounted);
-    for (std::size_t i = 0; i < key.scales.size(); ++i)
-        note_contrary_item(data, key.scales[i], data.first_scale() + i);
+    for (std::size_t i = 0; i < data.scales.size(); ++i)
+        note_contrary_item(data, data.scales[i], data.first_scale() + i);
     return data;
 }
 

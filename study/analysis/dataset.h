@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -102,7 +103,9 @@ struct Dataset {
     std::vector<Question> questions;
     // Of a question that several passes ask its index for each: by its index in the key and the pass.
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> of_passes;
+    // Those of the key; of a scale that several passes ask one for each of them.
     std::vector<Scale> scales;
+    std::vector<std::optional<std::size_t>> passes_of_scales;  // of each; none: of whichever pass asks it
     std::vector<Question> questionnaire;  // asked at the end
     std::vector<std::string> cells;       // labels of scores; the first are the conditions
     // Of cells about a ranked option its text: only scores of the same option are compared.
@@ -132,7 +135,7 @@ std::string label_of(const Dataset& data, std::vector<std::size_t> conditions);
 // key: where that is A the score is reversed, so that the highest score always means "like the first".
 // `pages`, of the same build, say which questions a pass asks: a note counts those that were left out. They say what
 // a sheet shows: who lacks answers of it has not finished, and a note says so.
-// A question that several passes ask is one for each of them, "natural-pass-2".
+// A question that several passes ask is one for each of them, "natural-pass-2", and so is a scale of such questions.
 // Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist, or an answer at the end
 // fits no question.
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,

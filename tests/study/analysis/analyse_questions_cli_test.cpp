@@ -78,5 +78,40 @@ TEST(AnalyseQuestions, CountsTheStepsOfAPreference) {
     EXPECT_EQ(strict["preferences"][0]["clear_wins"], 12);
 }
 
+// Without sound and with it: two scores, not their mean.
+TEST(AnalyseQuestions, GivesAScaleAScoreInEachPass) {
+    const TemporaryFolder folder;
+    SampleStudy sample{
+        .layout = "single", .groups = {{"ours"}, {"baseline"}}, .expected = Json::object(), .checks = 0};
+    sample.questions = Json::array();
+    for (const char* id : {"kind", "warm"})
+        sample.questions.push_back({{"id", id}, {"kind", "rating"}, {"text", "?"}, {"points", 7}});
+    write_sample_study(sample, folder / "study");
+    Json pages = read_json(folder / "study/public/pages.json"),
+         key = read_json(folder / "study/private/key.json");
+    for (Json& page : pages["pages"]) page["passes"].push_back(page["passes"][0]);
+    key["scales"] = Json::array({{{"id", "liking"}, {"items", {"kind", "warm"}}}});
+    write_json(folder / "study/public/pages.json", pages);
+    write_json(folder / "study/private/key.json", key);
+    const Outcome outcome = analyse_with(folder, [](Json& answer, bool) {
+        const int value = answer["pass"] == 0 ? 2 : 6;
+        answer["values"] = {{"kind", value}, {"warm", value}};
+    });
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const std::string scores = read_text(folder / "out/scale_scores.csv");
+    EXPECT_THAT(scores, HasSubstr("ours,liking-pass-1,2,"));
+    EXPECT_THAT(scores, HasSubstr("ours,liking-pass-2,6,"));
+    std::map<std::string, double> means;
+    const Json strict = strict_of(folder);
+    for (const Json& row : strict["scores"])
+        if (row["condition"] == "ours") means[row["question"]] = row["mean"];
+    EXPECT_EQ(means, (std::map<std::string, double>{{"kind-pass-1", 2},
+                                                    {"kind-pass-2", 6},
+                                                    {"liking-pass-1", 2},
+                                                    {"liking-pass-2", 6},
+                                                    {"warm-pass-1", 2},
+                                                    {"warm-pass-2", 6}}));
+}
+
 }  // namespace
 }  // namespace chironomia::study::analysis
