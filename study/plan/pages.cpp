@@ -124,6 +124,28 @@ bool is_always_heard(const Plan& plan) {
     return has_sound(plan) && std::all_of(plan.passes.begin(), plan.passes.end(), heard);
 }
 
+// A check that nobody need answer, or that no page asks, could neither be passed nor failed.
+void require_answered_checks(const JsonValue& checks, const Plan& plan) {
+    const Json expected = make_check(plan, 0, 0, 1).expected;
+    for (std::size_t i = 0; i < plan.questions.size(); ++i) {
+        const Question& question = plan.questions[i];
+        if (!expected.contains(question.id)) continue;
+        if (question.optional)
+            checks.refuse(format(
+                "expects an answer to \"{}\", which is optional, so that whoever leaves it open would neither pass nor "
+                "fail; remove \"optional\" from it, or give it other answers than the first question that checks ask "
+                "for",
+                question.id));
+        const bool is_asked = std::ranges::any_of(plan.passes, [&](const PagePass& pass) {
+            return std::ranges::find(pass.questions, i) != pass.questions.end();
+        });
+        if (!is_asked)
+            checks.refuse(format(
+                "expects an answer to \"{}\", which no pass asks; add it to one of \"passes\", or remove it",
+                question.id));
+    }
+}
+
 EarlyChecks read_early_checks(const JsonValue& value) {
     if (value.json() == "all") return EarlyChecks::all;
     if (!value.json().is_boolean())
@@ -160,6 +182,7 @@ void read_checks(const JsonValue& value, Plan& plan) {
         read_instruction(value, "instruction", default_instruction(plan.texts.language), plan);
     plan.checks.instruction_of_video = read_instruction(
         value, "instruction_of_video", default_instruction_of_video(plan.texts.language), plan);
+    if (plan.checks.count > 0) require_answered_checks(value, plan);
 }
 
 void read_exclusion_rules(const JsonValue& value, Plan& plan) {

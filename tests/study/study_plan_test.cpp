@@ -425,6 +425,30 @@ TEST_F(StudyPlan, ReadsChecksRulesAndCompletion) {
 
 // ---- Attention checks
 
+// Whoever leaves it open would neither pass nor fail.
+TEST_F(StudyPlan, RefusesAttentionChecksThatNobodyNeedAnswer) {
+    Json open = kRating, same = kRating;
+    open["optional"] = true;
+    same["id"] = "same";
+    same["optional"] = true;
+    EXPECT_EQ(
+        refusal_with({{"questions", {open}}, {"checks", {{"count", 1}}}}),
+        "plan.json: checks: expects an answer to \"natural\", which is optional, so that whoever leaves it open "
+        "would neither pass nor fail; remove \"optional\" from it, or give it other answers than the first "
+        "question that checks ask for");
+    EXPECT_THAT(refusal_with({{"questions", {kRating, same}}, {"checks", {{"count", 1}}}}),
+                HasSubstr("checks: expects an answer to \"same\", which is optional"));
+    same["points"] = 5;
+    EXPECT_NO_THROW(read_with({{"questions", {kRating, same}}, {"checks", {{"count", 1}}}}));
+    EXPECT_NO_THROW(read_with({{"questions", {open}}, {"checks", {{"count", 0}}}}));
+    EXPECT_EQ(
+        refusal_with({{"questions", {kRating, same}},
+                      {"passes", {{{"questions", {"same"}}}}},
+                      {"checks", {{"count", 1}}}}),
+        "plan.json: checks: expects an answer to \"natural\", which no pass asks; add it to one of \"passes\", or "
+        "remove it");
+}
+
 TEST_F(StudyPlan, PutsEveryCheckOnEverySheet) {
     Json json = sample_plan();
     json["checks"] = {{"count", 3}, {"kinds", {"text"}}};
