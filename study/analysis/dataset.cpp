@@ -1,11 +1,11 @@
 #include "study/analysis/dataset.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "study/analysis/dataset_notes.h"
 #include "study/measure/descriptive.h"
 #include "study/record/answer_values.h"
 
@@ -102,7 +102,7 @@ void add_preference(Dataset& data, const Joining& join, const Asked& asked, cons
     data.preferences.push_back(std::move(preference));
 }
 
-// Of a rating or slider about the whole page: in a triplet similarity to A or B, else of what it shows.
+// Of a rating or slider about the whole page: one that names a side is for one of two, any other of what the page shows.
 void add_page_score(Dataset& data, const Joining& join, const Asked& asked, const Json& value) {
     const std::vector<std::size_t> compared = compared_on(join.page, join.key);
     Score score{.participant = join.participant,
@@ -111,12 +111,11 @@ void add_page_score(Dataset& data, const Joining& join, const Asked& asked, cons
                 .value = value.get<double>()};
     if (compared.size() == 1) {
         score.cell = compared.front();
-    } else if (join.key.layout == Layout::triplet && compared.size() == 2 &&
-               asked.question.kind == QuestionKind::rating) {
+    } else if (compared.size() == 2 && names_a_side(asked.question, join.key.layout)) {
         const auto [first, second] = std::minmax(compared[0], compared[1]);
         score.cell = number_of(data.cells, pair_label(data, first, second));
-        // 1 means very similar to A, so the score is reversed if the first condition is A.
-        if (compared[0] == first) score.value = 1 + asked.question.points - score.value;
+        // The least means the left one (of a triplet: very similar to A), so the score is reversed if that is the first.
+        if (compared[0] == first) score.value = reversed_value(asked.question, score.value);
     } else {
         score.cell = number_of(data.cells, label_of(data, compared));
     }
@@ -290,13 +289,6 @@ bool has_finished(Dataset& data, const StudyPages& pages, const Respondent& part
     return false;
 }
 
-// Answers that no result counts.
-struct Uncounted {
-    std::size_t practised = 0;   // on practice pages
-    std::size_t left_out = 0;    // questions that had to be answered
-    std::size_t incomplete = 0;  // answers without some items of a scale
-};
-
 // Adds the scores of the scale of this index, of the video or videos that `given` rates. How many of them lack some
 // items.
 std::size_t add_scale(Dataset& data, const Joining& join, std::size_t index,
@@ -341,8 +333,19 @@ std::size_t add_scales(Dataset& data, const Joining& join, std::size_t scores_be
     return incomplete;
 }
 
+// Whether an attention check asks a question that may be left open, and it was.
+bool is_open_check(const Joining& join) {
+    if (join.page.kind != PageKind::check || join.answer.skipped) return false;
+    return std::ranges::any_of(join.pass.questions, [&](std::size_t asked) {
+        const Question& question = join.key.questions[asked];
+        return question.optional && join.page.expected.contains(question.id) &&
+               join.answer.values.value(question.id, Json()).is_null();
+    });
+}
+
 void join_one(Dataset& data, const Joining& join, Uncounted& uncounted) {
     uncounted.left_out += count_left_out(join);
+    uncounted.open_checks += is_open_check(join);
     const std::size_t scores_before = data.scores.size();
     Rater& rater = data.raters[join.participant];
     ++rater.answered;
@@ -350,8 +353,8 @@ void join_one(Dataset& data, const Joining& join, Uncounted& uncounted) {
     for (std::size_t q = 0; q < join.key.questions.size(); ++q) {
         const Question& question = join.key.questions[q];
         if (!join.answer.values.contains(question.id)) continue;
-        const Json value = to_places(join.answer.values[question.id], question, join.answer.order,
-                                     join.key.layout == Layout::triplet);
+        const Json value =
+            to_places(join.answer.values[question.id], question, join.answer.order, join.key.layout);
         const Asked asked{.question = question, .index = data.index_of(q, join.answer.pass)};
         add_row(data, join, asked, value);
         if (join.page.kind != PageKind::trial || value.is_null()) continue;
@@ -400,48 +403,6 @@ void join_participant(Dataset& data, const ParticipantSource& of, Uncounted& unc
     rater.failed = failed_checks(of.key, of.pages, of.participant.answers);
     std::sort(seconds.begin(), seconds.end());
     if (!seconds.empty()) rater.median_seconds = percentile_of_sorted(seconds, 0.5);
-}
-
-// The item whose answers go against the others most: often one that was not said to be reversed.
-void note_contrary_item(Dataset& data, const Scale& scale, std::size_t question) {
-    std::vector<std::vector<double>> answers;
-    for (const ScaleAnswer& answer : data.scale_answers) {
-        if (answer.question == question) answers.push_back(answer.items);
-    }
-    double lowest = 0;
-    std::size_t contrary = 0;
-    for (std::size_t i = 0; i < scale.items.size(); ++i) {
-        double sum = 0, of_rest = 0, products = 0;
-        for (const std::vector<double>& items : answers) {
-            const double rest = std::accumulate(items.begin(), items.end(), -items[i]);
-            sum += items[i];
-            of_rest += rest;
-            products += items[i] * rest;
-        }
-        const double covariance = static_cast<double>(answers.size()) * products - sum * of_rest;
-        if (covariance >= lowest) continue;
-        lowest = covariance;
-        contrary = scale.items[i];
-    }
-    if (lowest < 0)
-        data.notes.push_back(format(
-            "Scale {}: answers to \"{}\" go against those to the other items; check which items are reversed "
-            "(\"scales\" in private/key.json).",
-            scale.id, data.questions[contrary].id));
-}
-
-void note_uncounted(Dataset& data, const Uncounted& uncounted) {
-    const std::size_t left_out = uncounted.left_out;
-    if (left_out > 0)
-        data.notes.push_back(format("{} not answered though {} to be.",
-                                    left_out == 1 ? "1 question was" : format("{} questions were", left_out),
-                                    left_out == 1 ? "it had" : "they had"));
-    if (uncounted.incomplete > 0)
-        data.notes.push_back(format(
-            "{} no score of a scale, because items of it were not answered.",
-            uncounted.incomplete == 1 ? "1 answer has" : format("{} answers have", uncounted.incomplete)));
-    if (uncounted.practised > 0)
-        data.notes.push_back(format("{} answers on practice pages are not counted.", uncounted.practised));
 }
 
 // As if the mean had been given on a slider.
@@ -562,9 +523,7 @@ Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                                .questionnaire = participant.questionnaire});
         join_participant(data, {key, pages, participant}, uncounted);
     }
-    note_uncounted(data, uncounted);
-    for (std::size_t i = 0; i < data.scales.size(); ++i)
-        note_contrary_item(data, data.scales[i], data.first_scale() + i);
+    add_notes(data, key, uncounted);
     return data;
 }
 

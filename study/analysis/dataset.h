@@ -106,8 +106,8 @@ struct Dataset {
     // Those of the key; of a scale that several passes ask one for each of them.
     std::vector<Scale> scales;
     std::vector<std::optional<std::size_t>> passes_of_scales;  // of each; none: of whichever pass asks it
-    std::vector<Question> questionnaire;  // asked at the end
-    std::vector<std::string> cells;       // labels of scores; the first are the conditions
+    std::vector<Question> questionnaire;                       // asked at the end
+    std::vector<std::string> cells;  // labels of scores; the first are the conditions
     // Of cells about a ranked option its text: only scores of the same option are compared.
     std::map<std::size_t, std::string> option_of_cell;
     std::vector<std::string> units;  // ids of pages and videos
@@ -131,11 +131,13 @@ struct Dataset {
 // The names of conditions that are shown together, in the order of the plan: "base + ours".
 std::string label_of(const Dataset& data, std::vector<std::size_t> conditions);
 
-// Replaces sides by conditions. A score of a triplet is the similarity to that one of A and B that comes first in the
-// key: where that is A the score is reversed, so that the highest score always means "like the first".
+// Replaces sides by conditions. A score that names a side (answer_values.h), such as the similarity to A or B of a
+// triplet, is for that one of the two that comes first in the key: where that stands first on the page the score is
+// reversed, so that the highest score always means "the first", or "like the first".
 // `pages`, of the same build, say which questions a pass asks: a note counts those that were left out. They say what
 // a sheet shows: who lacks answers of it has not finished, and a note says so.
 // A question that several passes ask is one for each of them, "natural-pass-2", and so is a scale of such questions.
+// A note names questions of which neither the key nor the layout says whether they name a side.
 // Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist, or an answer at the end
 // fits no question.
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,

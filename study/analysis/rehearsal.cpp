@@ -68,10 +68,11 @@ Json rating_of(SimulatedRater& rater, const Question& question, const KeyPage& p
             scores.push_back(score_at(rater, page, place, range));
         return scores;
     }
-    // Of a triplet: 1 is like A, the most is like B.
-    if (rater.key.layout == Layout::triplet) {
+    // The least is the left one, or like A of a triplet; the most is the right one.
+    if (names_a_side(question, rater.key.layout)) {
         const double middle = (range.least + range.most) / 2.0;
-        const auto rating = static_cast<int>(std::lround(middle - feeling(rater, page)));
+        const double step = question.kind == QuestionKind::rating ? 1 : kOfScale * (range.most - range.least);
+        const auto rating = static_cast<int>(std::lround(middle - step * feeling(rater, page)));
         return std::clamp(rating, range.least, range.most);
     }
     return score_at(rater, page, 0, range);
@@ -202,7 +203,7 @@ Json answer_step(SimulatedRater& rater, const Step& step, const StudyPage& shown
         if (is_reversed(rater.key.scales, number)) value = reversed_answer(question, value);
         if (page.kind == PageKind::check && page.expected.contains(question.id))
             value = answer_check(rater, question, page.expected[question.id], value);
-        values[question.id] = to_shown(value, question, order, rater.key.layout == Layout::triplet);
+        values[question.id] = to_shown(value, question, order, rater.key.layout);
         const Json reason = reasons_of(rater, question, values[question.id]);
         if (!reason.is_null()) reasons[question.id] = reason;
     }

@@ -54,6 +54,9 @@ void require_fit(const JsonValue& item, const Question& question, const Plan& pl
         item.refuse(
             format("\"{}\" compares videos, but the layout \"single\" shows one; ask a rating", question.id));
     }
+    if (question.sided && plan.layout != Layout::pair && plan.layout != Layout::triplet)
+        item.refuse(format("\"{}\" has \"sided\", but the layout \"{}\" has no A and B; leave it out",
+                           question.id, to_text(plan.layout)));
     if (question.each && plan.presentation == Presentation::one_video)
         item.refuse(format("\"{}\" is of each video, but one video shows both figures", question.id));
 }

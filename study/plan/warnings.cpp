@@ -59,18 +59,23 @@ void warn_of_scores_of_pages(const Plan& plan, std::vector<std::string>& warning
         return;
     for (const Question& question : plan.questions) {
         const bool is_score = question.kind == QuestionKind::rating || question.kind == QuestionKind::slider;
-        if (!is_score || question.each || plan.right_answers.contains(question.id)) continue;
+        if (!is_score || question.each || question.sided || plan.right_answers.contains(question.id))
+            continue;
         if (plan.layout == Layout::triplet && question.kind == QuestionKind::rating) {
             warnings.push_back(format(
                 "{}: questions: \"{}\" is analysed as similarity of the reference to A (1) or to B ({}), and turned with "
-                "the videos; ask what is not about A and B as a slider",
+                "the videos; say that it is by \"sided\": true, or by \"sided\": false that it is not about A and B",
                 plan.file.string(), question.id, question.points));
             continue;
         }
         warnings.push_back(format(
             "{}: questions: \"{}\" is asked once of all videos of a page, so no condition gets a score; if each "
-            "video is to be rated, give the question \"each\": true",
-            plan.file.string(), question.id));
+            "video is to be rated, give the question \"each\": true{}",
+            plan.file.string(), question.id,
+            plan.layout == Layout::parallel
+                ? ""
+                : "; if it goes from A to B, \"sided\": true, which is turned with the videos; if it is about the page as "
+                  "a whole, \"sided\": false"));
     }
 }
 

@@ -209,15 +209,20 @@ Sentences manipulated_variables(const Source& from) {
     return says;
 }
 
+std::string of_what(const Question& question) {
+    if (question.each) return ", of every video";
+    return question.sided.value_or(false) ? ", from A to B" : "";
+}
+
 std::string scale_of(const Question& question) {
     switch (question.kind) {
         case QuestionKind::preference:
             return format("preference, {} answers: {}", question.answers.size(), quoted(question.answers));
         case QuestionKind::rating:
-            return format("rating from 1 to {}{}", question.points, question.each ? ", of every video" : "");
+            return format("rating from 1 to {}{}", question.points, of_what(question));
         case QuestionKind::slider:
             return format("slider from {} to {}{}", question.least.value_or(0), question.most.value_or(100),
-                          question.each ? ", of every video" : "");
+                          of_what(question));
         case QuestionKind::choice:
             return "one choice";
         case QuestionKind::rank:
@@ -289,7 +294,16 @@ Sentences transformations(const Source& from) {
     if (asks(from.plan, QuestionKind::preference))
         says.push_back(
             "A tie counts as half a win; clear answers count double in the strengths and weighted shares.");
-    if (from.plan.layout == Layout::triplet)
+    for (const Question& question : from.plan.questions) {
+        if (!question.sided) continue;
+        says.push_back(question.id +
+                       (*question.sided
+                            ? ": answers are turned so that the most is for the condition that comes first."
+                            : ": answers are about the page as a whole, and stay as they are where the "
+                              "videos change sides."));
+    }
+    const auto is_unsaid = [](const Question& question) { return !question.sided; };
+    if (from.plan.layout == Layout::triplet && std::ranges::any_of(from.plan.questions, is_unsaid))
         says.push_back(
             "Answers to triplets are turned so that the most is \"very similar to the condition that comes first\".");
     return says;

@@ -116,13 +116,18 @@ bool is_mirrored(const std::vector<std::size_t>& order) {
     return order.size() > 1 && order.front() > order.back();
 }
 
+bool names_a_side(const Question& question, Layout layout) {
+    if (question.kind == QuestionKind::preference) return true;
+    const bool is_score = question.kind == QuestionKind::rating || question.kind == QuestionKind::slider;
+    if (!is_score || question.each) return false;
+    return question.sided.value_or(layout == Layout::triplet && question.kind == QuestionKind::rating);
+}
+
 Json to_places(const Json& value, const Question& question, const std::vector<std::size_t>& order,
-               bool names_a_side) {
+               Layout layout) {
     if (value.is_null()) return value;
     const bool of_videos = is_of_videos(question);
-    const bool sided = question.kind == QuestionKind::preference ||
-                       (question.kind == QuestionKind::rating && !question.each && names_a_side);
-    if (sided && is_mirrored(order)) {
+    if (names_a_side(question, layout) && is_mirrored(order)) {
         const Range range = range_of(question);
         return range.least + range.most - value.get<long long>();
     }
@@ -134,11 +139,11 @@ Json to_places(const Json& value, const Question& question, const std::vector<st
 }
 
 Json to_shown(const Json& value, const Question& question, const std::vector<std::size_t>& order,
-              bool names_a_side) {
+              Layout layout) {
     // What moves a place to where it is shown is the order the other way round.
     std::vector<std::size_t> shown_at(order.size());
     for (std::size_t shown = 0; shown < order.size(); ++shown) shown_at[order[shown]] = shown;
-    return to_places(value, question, shown_at, names_a_side);
+    return to_places(value, question, shown_at, layout);
 }
 
 std::string fault_of_reasons(const Question& question, const Json& value, const Json& given) {

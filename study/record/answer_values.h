@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/files/json.h"
+#include "study/record/page_kinds.h"
 #include "study/record/questions.h"
 
 namespace chironomia::study {
@@ -27,15 +28,18 @@ int steps_towards_left(int value, std::size_t answers);
 // Whether the first and the last place changed sides.
 bool is_mirrored(const std::vector<std::size_t>& order);
 
+// Whether an answer goes from the left video to the right one, so that it changes when they change places: a preference,
+// and a rating or a slider that is `sided`. One that does not say so is if it is a rating of a triplet.
+bool names_a_side(const Question& question, Layout layout);
+
 // The value as if the videos had stood in the order of the places. `order`: the places from left to right as
 // shown. A value that names a side is mirrored or moved, an array permuted; others stay.
-//   names_a_side   whether a rating without `each` does so, as in a triplet
 Json to_places(const Json& value, const Question& question, const std::vector<std::size_t>& order,
-               bool names_a_side);
+               Layout layout);
 
 // The other way round: the value as a participant gives it who sees the places in that order.
 Json to_shown(const Json& value, const Question& question, const std::vector<std::size_t>& order,
-              bool names_a_side);
+              Layout layout);
 
 // How far from the expected value the answer to an attention check may be: on a slider from 0 to 100 by 3, as HEMVIP
 // allows (lib/webmushra/pages/VideoPage.js), on others by 3 % of their width; else by nothing.

@@ -25,8 +25,7 @@ std::optional<FailedCheck> missed_answer(const StudyKey& key, const PagePass& pa
         if (!page.expected.contains(question.id)) continue;
         const Json& expected = page.expected[question.id];
         const Json given = answer.values.value(question.id, Json());
-        const Json in_places =
-            to_places(given, question, all_places(answer, page), key.layout == Layout::triplet);
+        const Json in_places = to_places(given, question, all_places(answer, page), key.layout);
         if (is_as_expected(in_places, expected, question)) continue;
         const int tolerance = check_tolerance(question);
         return FailedCheck{

@@ -26,8 +26,8 @@ const std::vector<std::pair<std::string, QuestionKind>> kKinds = {
 // What each kind holds beside id, kind, text and optional.
 const std::map<QuestionKind, std::vector<std::string>> kKeysOfKind = {
     {QuestionKind::preference, {"answers", "reasons"}},
-    {QuestionKind::rating, {"points", "labels", "each"}},
-    {QuestionKind::slider, {"least", "most", "labels", "each"}},
+    {QuestionKind::rating, {"points", "labels", "each", "sided"}},
+    {QuestionKind::slider, {"least", "most", "labels", "each", "sided"}},
     {QuestionKind::choice, {"options", "of_videos"}},
     {QuestionKind::rank, {"options", "of_videos"}},
     {QuestionKind::text, {}},
@@ -167,6 +167,11 @@ Question read_question(const JsonValue& value) {
     question.text = value.at("text").text();
     if (const auto flag = value.find("optional")) question.optional = flag->flag();
     if (const auto flag = value.find("each")) question.each = flag->flag();
+    if (const auto flag = value.find("sided")) {
+        question.sided = flag->flag();
+        if (*question.sided && question.each)
+            flag->refuse("is true, but each video is rated by itself (\"each\"); leave one of them out");
+    }
     switch (question.kind) {
         case QuestionKind::preference:
             read_preference(value, question);
@@ -237,6 +242,7 @@ Json to_json(const Question& question) {
     if (question.most) json["most"] = *question.most;
     if (!question.marks.empty()) json["labels"] = question.marks;
     if (question.each) json["each"] = true;
+    if (question.sided) json["sided"] = *question.sided;
     if (is_of_videos(question)) json["of_videos"] = true;
     if (!question.options.empty()) json["options"] = options_json(question.options);
     return json;

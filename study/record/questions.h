@@ -35,10 +35,11 @@ struct Question {
     QuestionKind kind = QuestionKind::preference;
     std::string text;
     bool optional = false;
-    bool each = false;                  // rating, slider: of every video by itself
-    std::vector<std::string> answers;   // preference: from the left one clearly to the right one clearly
-    std::optional<Reasons> reasons;     // preference
-    int points = 0;                     // rating: 1 to this
+    bool each = false;                 // rating, slider: of every video by itself
+    std::optional<bool> sided;         // rating, slider: from the left video to the right one; none: not said
+    std::vector<std::string> answers;  // preference: from the left one clearly to the right one clearly
+    std::optional<Reasons> reasons;    // preference
+    int points = 0;                    // rating: 1 to this
     std::map<int, std::string> labels;  // rating: of some points
     std::vector<std::string> marks;     // slider: from the most down to the least
     std::optional<int> least;           // slider, number

@@ -573,6 +573,32 @@ TEST_F(StudyPlan, WarnsOfScoresThatBelongToNoCondition) {
                     "questions: \"sure\" is analysed as similarity of the reference to A (1) or to B (5)")));
 }
 
+// Which side is better, or how the whole page is: a plan may say it, and then nothing is in doubt.
+TEST_F(StudyPlan, KnowsQuestionsThatGoFromAToB) {
+    Json slider = {{"id", "better"}, {"kind", "slider"}, {"text", "Which one?"}, {"least", -3}, {"most", 3}};
+    EXPECT_THAT(plan_warnings(read_with({{"questions", {slider}}})),
+                ElementsAre(HasSubstr(
+                    "if it goes from A to B, \"sided\": true, which is turned with the videos; if it "
+                    "is about the page as a whole, \"sided\": false")));
+    for (const bool sided : {true, false}) {
+        slider["sided"] = sided;
+        const Plan plan = read_with({{"questions", {slider}}});
+        EXPECT_EQ(plan.questions[0].sided, sided);
+        EXPECT_EQ(plan_as_used(plan)["questions"][0]["sided"], sided);
+        EXPECT_THAT(plan_warnings(plan), IsEmpty());
+    }
+    slider["sided"] = true;
+    EXPECT_EQ(
+        refusal_with({{"questions", {slider}}, {"layout", "parallel"}}),
+        "plan.json: questions[0]: \"better\" has \"sided\", but the layout \"parallel\" has no A and B; leave it "
+        "out");
+    slider["each"] = true;
+    EXPECT_EQ(
+        refusal_with({{"questions", {slider}}}),
+        "plan.json: questions[0].sided: is true, but each video is rated by itself (\"each\"); leave one of them "
+        "out");
+}
+
 TEST_F(StudyPlan, ExcludesByTheLenientRuleNoMoreThanByTheStrictOne) {
     const Plan plan = read_with({{"exclusions", {{"failed_checks", 3}}}});
     EXPECT_EQ(plan.exclusions.lenient_failed_checks, 3u);

@@ -13,6 +13,7 @@ namespace chironomia::study::analysis {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::Outcome;
 using testing::run_chironomia;
 using testing::SampleStudy;
@@ -53,6 +54,95 @@ Json strict_of(const TemporaryFolder& folder) {
 
 SampleStudy sample_asking(const Json& question) {
     return {.questions = Json::array({question}), .expected = Json::object(), .checks = 0};
+}
+
+const Json kFromLeftToRight = {
+    {"id", "better"}, {"kind", "slider"}, {"text", "Which one?"}, {"least", -3}, {"most", 3}};
+
+// Ours is better by two steps, wherever it stands.
+void prefer_ours(Json& answer, bool is_ours_left) {
+    answer["values"]["better"] = is_ours_left ? -2 : 2;
+}
+
+TEST(AnalyseQuestions, TurnsASidedSliderWithTheVideos) {
+    const TemporaryFolder folder;
+    Json question = kFromLeftToRight;
+    question["sided"] = true;
+    write_sample_study(sample_asking(question), folder / "study");
+    const Outcome outcome = analyse_with(folder, prefer_ours);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json scores = strict_of(folder)["scores"];
+    ASSERT_EQ(scores.size(), 1u);
+    EXPECT_EQ(scores[0]["condition"], "ours over baseline");
+    EXPECT_EQ(scores[0]["mean"], 2);
+    EXPECT_THAT(outcome.out, Not(HasSubstr("sided")));
+}
+
+// As studies of before were built: a number that means nothing, and a note.
+TEST(AnalyseQuestions, SaysThatAnswersAreNotTurned) {
+    const TemporaryFolder folder;
+    write_sample_study(sample_asking(kFromLeftToRight), folder / "study");
+    const Outcome outcome = analyse_with(folder, prefer_ours);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(strict_of(folder)["scores"][0]["mean"], 0);
+    EXPECT_THAT(
+        outcome.out,
+        HasSubstr("better: answers are taken as about the page as a whole, and are not turned where the "
+                  "videos have changed sides; if the question is about which of the two, give it \"sided\": "
+                  "true in private/key.json."));
+}
+
+SampleStudy triplet_asking(const Json& question) {
+    SampleStudy sample = sample_asking(question);
+    sample.layout = "triplet";
+    sample.conditions = Json::array({{{"name", "ours"}}, {{"name", "real"}}, {{"name", "baseline"}}});
+    sample.reference = "real";
+    sample.groups = {{"ours", "real", "baseline"}};
+    return sample;
+}
+
+// Everybody is quite sure, so that nothing says which of the two is more like the reference.
+TEST(AnalyseQuestions, TurnsARatingOfATripletUnlessItIsOfThePage) {
+    Json question = {{"id", "sure"}, {"kind", "rating"}, {"text", "How sure are you?"}, {"points", 5}};
+    const Change be_sure = [](Json& answer, bool) { answer["values"]["sure"] = 4; };
+    {
+        const TemporaryFolder folder;
+        write_sample_study(triplet_asking(question), folder / "study");
+        const Outcome outcome = analyse_with(folder, be_sure);
+        EXPECT_EQ(strict_of(folder)["scores"][0]["condition"], "ours over baseline");
+        EXPECT_EQ(strict_of(folder)["scores"][0]["mean"], 3);
+        EXPECT_THAT(
+            outcome.out,
+            HasSubstr(
+                "sure: answers are taken as going from A (1) to B (5), and are turned where the two have "
+                "changed sides; if the question is not about which of the two, give it \"sided\": false "
+                "in private/key.json."));
+    }
+    const TemporaryFolder folder;
+    question["sided"] = false;
+    write_sample_study(triplet_asking(question), folder / "study");
+    const Outcome outcome = analyse_with(folder, be_sure);
+    EXPECT_EQ(strict_of(folder)["scores"][0]["condition"], "ours + baseline");
+    EXPECT_EQ(strict_of(folder)["scores"][0]["mean"], 4);
+    EXPECT_THAT(outcome.out, Not(HasSubstr("sided")));
+}
+
+// A simulated rater who is told to prefer ours does so on a sided slider too.
+TEST(AnalyseQuestions, RehearsesASidedSlider) {
+    const TemporaryFolder folder;
+    Json question = kFromLeftToRight;
+    question["sided"] = true;
+    write_sample_study(sample_asking(question), folder / "study");
+    const std::string study = (folder / "study").string(), answers = (folder / "answers.json").string();
+    ASSERT_EQ(run_chironomia({"study", "rehearse", study, "--participants", "20", "--prefer", "ours=3",
+                              "--seed", "1", "--out", answers})
+                  .exit_code,
+              0);
+    ASSERT_EQ(run_chironomia({"study", "analyse", study, "--answers", answers, "--out",
+                              (folder / "out").string(), "--samples", "200"})
+                  .exit_code,
+              0);
+    EXPECT_GT(strict_of(folder)["scores"][0]["mean"], 1);
 }
 
 // Three steps, then one: a mean of two, where five answers would have been 1.5. Six weigh as much as three slight ones.
@@ -111,6 +201,26 @@ TEST(AnalyseQuestions, GivesAScaleAScoreInEachPass) {
                                                     {"liking-pass-2", 6},
                                                     {"warm-pass-1", 2},
                                                     {"warm-pass-2", 6}}));
+}
+
+// No plan is built so any more: what was built before counts as it did, with a note.
+TEST(AnalyseQuestions, SaysThatAnOpenAttentionCheckCountsAsFailed) {
+    const TemporaryFolder folder;
+    SampleStudy sample;
+    sample.questions[0]["optional"] = true;
+    sample.checks = 1;
+    write_sample_study(sample, folder / "study");
+    bool is_first = true;
+    const Outcome outcome = analyse_with(folder, [&](Json& answer, bool) {
+        if (answer["page"] != "0000000000000006") return;
+        if (is_first) answer["values"]["realism"] = nullptr;
+        is_first = false;
+    });
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("4 participants: 3 counted by the strict rule, 4 by the lenient one"));
+    EXPECT_THAT(
+        outcome.out,
+        HasSubstr("1 attention check, whose question is \"optional\", was left open and counts as failed."));
 }
 
 }  // namespace

@@ -71,30 +71,46 @@ TEST(FaultOfAnswer, TakesNothingForAnOptionalQuestion) {
 }
 
 TEST(ToPlaces, MirrorsWhatNamesASide) {
-    EXPECT_EQ(to_places(1, kPreference, {1, 0}, false), 5);
-    EXPECT_EQ(to_places(1, kPreference, {0, 1}, false), 1);
+    EXPECT_EQ(to_places(1, kPreference, {1, 0}, Layout::pair), 5);
+    EXPECT_EQ(to_places(1, kPreference, {0, 1}, Layout::pair), 1);
     // Of a triplet the reference stays, and A and B change places.
-    EXPECT_EQ(to_places(2, kRating, {2, 1, 0}, true), 4);
-    EXPECT_EQ(to_places(2, kRating, {1, 0}, false), 2);
-    EXPECT_EQ(to_places("x", kChoice, {1, 0}, false), "x");
+    EXPECT_EQ(to_places(2, kRating, {2, 1, 0}, Layout::triplet), 4);
+    EXPECT_EQ(to_places(2, kRating, {1, 0}, Layout::pair), 2);
+    EXPECT_EQ(to_places("x", kChoice, {1, 0}, Layout::pair), "x");
+}
+
+// From the left video to the right one, or of the page as a whole: the question says it, or the layout does.
+TEST(ToPlaces, MirrorsRatingsAndSlidersThatAreSided) {
+    Question rating = kRating;
+    Question slider{.id = "s", .kind = QuestionKind::slider, .least = -3, .most = 3};
+    EXPECT_EQ(to_places(2, slider, {1, 0}, Layout::pair), 2);
+    EXPECT_EQ(to_places(2, slider, {2, 1, 0}, Layout::triplet), 2);
+    rating.sided = slider.sided = true;
+    EXPECT_EQ(to_places(2, rating, {1, 0}, Layout::pair), 4);
+    EXPECT_EQ(to_places(2, slider, {1, 0}, Layout::pair), -2);
+    EXPECT_EQ(to_places(2, slider, {0, 1}, Layout::pair), 2);
+    rating.sided = false;
+    EXPECT_EQ(to_places(2, rating, {2, 1, 0}, Layout::triplet), 2);
 }
 
 TEST(ToPlaces, MovesWhatIsSaidOfEachVideo) {
     // Shown: place 2, then 0, then 1.
-    EXPECT_EQ(to_places(Json::array({10, 20, 30}), kEach, {2, 0, 1}, false), Json::array({20, 30, 10}));
-    EXPECT_EQ(to_places(Json::array({1, 2, 3}), kRank, {2, 0, 1}, false), Json::array({2, 3, 1}));
-    EXPECT_EQ(to_places(0, kOfVideos, {2, 0, 1}, false), 2);
-    EXPECT_EQ(to_places(nullptr, kOfVideos, {2, 0, 1}, false), nullptr);
+    EXPECT_EQ(to_places(Json::array({10, 20, 30}), kEach, {2, 0, 1}, Layout::pair),
+              Json::array({20, 30, 10}));
+    EXPECT_EQ(to_places(Json::array({1, 2, 3}), kRank, {2, 0, 1}, Layout::pair), Json::array({2, 3, 1}));
+    EXPECT_EQ(to_places(0, kOfVideos, {2, 0, 1}, Layout::pair), 2);
+    EXPECT_EQ(to_places(nullptr, kOfVideos, {2, 0, 1}, Layout::pair), nullptr);
 }
 
 TEST(ToShown, IsTheOtherWayRound) {
     const std::vector<std::size_t> order = {2, 0, 1};
     for (const Question& question : {kEach, kRank}) {
         const Json value = Json::array({3, 1, 2});
-        EXPECT_EQ(to_places(to_shown(value, question, order, false), question, order, false), value);
+        EXPECT_EQ(to_places(to_shown(value, question, order, Layout::pair), question, order, Layout::pair),
+                  value);
     }
-    EXPECT_EQ(to_shown(2, kOfVideos, order, false), 0);
-    EXPECT_EQ(to_shown(4, kPreference, {1, 0}, false), 2);
+    EXPECT_EQ(to_shown(2, kOfVideos, order, Layout::pair), 0);
+    EXPECT_EQ(to_shown(4, kPreference, {1, 0}, Layout::pair), 2);
 }
 
 TEST(IsAsExpected, TakesAnyValueWhereNothingIsExpected) {
