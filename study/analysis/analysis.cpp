@@ -13,6 +13,7 @@
 #include "study/analysis/dataset_tables.h"
 #include "study/analysis/exclusion.h"
 #include "study/analysis/foreign.h"
+#include "study/analysis/hemvip_answers.h"
 #include "study/analysis/plots.h"
 #include "study/analysis/questionnaire_tables.h"
 #include "study/analysis/result_tables.h"
@@ -184,6 +185,17 @@ Json json_of(const Analysis& analysis, const Results& results) {
     return json;
 }
 
+// The files are all as the first one is: the readers refuse others.
+Dataset dataset_of_study(const std::vector<fs::path>& files, const StudyKey& key, const StudyPages& pages) {
+    if (!files.empty() && files.front().extension() == ".csv") return read_battles(files, key, pages);
+    if (files.empty() || !is_of_hemvip(files.front()))
+        return join_answers(key, pages, read_answers(files, key));
+    const HemvipAnswers read = read_hemvip_answers(files, key, pages);
+    Dataset data = join_answers(key, pages, read.participants);
+    data.notes.insert(data.notes.begin(), read.notes.begin(), read.notes.end());
+    return data;
+}
+
 // A study that is served keeps answers in a database, which is there before the first participant.
 std::string no_answers(const AnalysisJob& job) {
     if (job.study && fs::exists(StudyFolder{*job.study}.answers()))
@@ -207,7 +219,7 @@ Analysis analyse(const AnalysisJob& job) {
         const StudyKey key = read_study_key(folder.key());
         const StudyPages pages = read_study_pages(folder.open() / "pages.json");
         require_same_study(folder.key(), key, pages);
-        analysis.data = join_answers(key, pages, read_answers(files, key));
+        analysis.data = dataset_of_study(files, key, pages);
         analysis.title = title_of(folder);
     } else {
         analysis.data = read_foreign_answers(files);

@@ -1,6 +1,7 @@
 #include "study/analysis/foreign.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -9,7 +10,10 @@
 #include "core/files/files.h"
 #include "core/files/json_value.h"
 #include "core/text.h"
+#include "study/analysis/hemvip_answers.h"
 #include "study/analysis/simulated_rater.h"
+#include "study/record/answer_values.h"
+#include "study/record/failed_checks.h"
 #include "synth/speech/utf8.h"
 
 namespace chironomia::study::analysis {
@@ -46,6 +50,19 @@ std::size_t rater_named(Dataset& data, const std::string& name, const std::strin
     }
     data.raters.push_back({.name = name, .file = file});
     return data.raters.size() - 1;
+}
+
+bool is_token(const std::string& name) {
+    constexpr std::size_t kDigits = 16;
+    return name.size() == kDigits && name.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+// By a token of a video each video would be a condition of its own.
+std::string token_refusal(const std::string& token) {
+    return format(
+        "\"{}\", the token of a video of a study, which hides the condition; give the folder of the study too: "
+        "chironomia study analyse DIR --answers ...",
+        token);
 }
 
 Question preference_question() {
@@ -110,15 +127,15 @@ void add_reasons(Question& question, const std::vector<std::string>& reasons) {
     }
 }
 
-void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
-    data.simulated = data.simulated || battle.at("user").starts_with(kSimulatedRaters);
-    const std::size_t left = condition_named(data, battle.at("model_a")),
-                      right = condition_named(data, battle.at("model_b"));
-    if (left == right) battle.refuse(format("model_a and model_b are both \"{}\"", battle.at("model_a")));
+// Above 0 model_a was preferred, 2 strongly.
+int steps_of(const Battle& battle) {
     const std::string winner = battle.choice("winner", {"model_a", "model_b", "tie", "tie (bothbad)"});
     const bool strong = battle.choice("is_strong", {"True", "False", ""}) == "True";
-    const int towards_left =
-        winner.starts_with("tie") ? 0 : (strong ? 2 : 1) * (winner == "model_a" ? 1 : -1);
+    return winner.starts_with("tie") ? 0 : (strong ? 2 : 1) * (winner == "model_a" ? 1 : -1);
+}
+
+std::size_t voter_of(Dataset& data, const Battle& battle, const std::string& file) {
+    data.simulated = data.simulated || battle.at("user").starts_with(kSimulatedRaters);
     const std::size_t participant = rater_named(data, battle.at("user"), file);
     if (data.raters[participant].file != file) {
         battle.refuse(
@@ -126,11 +143,24 @@ void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
                    "question by themselves",
                    battle.at("user"), data.raters[participant].file));
     }
-    const std::string clip = battle.at("input_code");
-    const std::string pair = format("{}: {} and {}", clip, std::min(left, right), std::max(left, right));
+    return participant;
+}
+
+// Who voted on what.
+struct PairOfLine {
+    std::size_t participant = 0;
+    std::size_t left = 0;  // condition
+    std::size_t right = 0;
+    std::string clip;
+    std::string unit;
+};
+
+void add_vote(Dataset& data, const Battle& battle, const PairOfLine& pair, Question asked) {
+    const auto& [participant, left, right, clip, unit] = pair;
+    const int towards_left = steps_of(battle);
     Preference preference{.participant = participant,
-                          .question = question_with(data, preference_question()),
-                          .unit = unit_named(data, pair),
+                          .question = question_with(data, std::move(asked)),
+                          .unit = unit_named(data, unit),
                           .first = std::min(left, right),
                           .second = std::max(left, right),
                           .left = left,
@@ -143,12 +173,170 @@ void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
     data.preferences.push_back(std::move(preference));
 }
 
-void read_battles(Dataset& data, const fs::path& file) {
+std::string pair_named(const std::string& clip, std::size_t left, std::size_t right) {
+    return format("{}: {} and {}", clip, std::min(left, right), std::max(left, right));
+}
+
+void add_battle(Dataset& data, const Battle& battle, const std::string& file) {
+    for (const char* column : {"model_a", "model_b"}) {
+        if (is_token(battle.at(column)))
+            battle.refuse(format("{} is {}", column, token_refusal(battle.at(column))));
+    }
+    const std::size_t left = condition_named(data, battle.at("model_a")),
+                      right = condition_named(data, battle.at("model_b"));
+    if (left == right) battle.refuse(format("model_a and model_b are both \"{}\"", battle.at("model_a")));
+    const std::size_t participant = voter_of(data, battle, file);
+    const std::string clip = battle.at("input_code");
+    add_vote(data, battle,
+             {.participant = participant,
+              .left = left,
+              .right = right,
+              .clip = clip,
+              .unit = pair_named(clip, left, right)},
+             preference_question());
+}
+
+template <typename Add>
+void read_lines(const fs::path& file, const Add& add) {
     const std::string text = read_text(file);
     require_utf8(file, text);
     const CsvTable table = parse_csv_table(text, file.string(), {.has_comments = false});
-    for (const CsvRow& row : table.rows) add_battle(data, Battle(table, row), file.string());
+    for (const CsvRow& row : table.rows) add(Battle(table, row));
 }
+
+// Lines of battles.csv about a study: its names of conditions, or tokens.
+class BattlesOfStudy {
+  public:
+    BattlesOfStudy(const StudyKey& key, const StudyPages& pages, const std::string& file)
+        : key_(key),
+          pages_(pages),
+          data_{.study = key.study,
+                .preset = key.preset,
+                .seed = key.seed,
+                .conditions = key.conditions,
+                .rules = key.exclusions} {
+        std::vector<std::size_t> preferences;
+        for (std::size_t i = 0; i < key.questions.size(); ++i) {
+            if (key.questions[i].kind == QuestionKind::preference) preferences.push_back(i);
+        }
+        if (preferences.empty())
+            throw Error(format("{}: the study asks for no preference; give the answers of this study", file));
+        judged_ = key.questions[preferences.front()];
+        asked_ = preferences.size() == 1 ? judged_ : preference_question();
+        // A line answers one question, whatever else a check asks.
+        for (StudyPage& page : pages_.pages) {
+            for (PagePass& pass : page.passes) pass.questions = {preferences.front()};
+        }
+    }
+
+    void add(const Battle& battle, const std::string& file) {
+        const Side left = side_named(battle, "model_a"), right = side_named(battle, "model_b");
+        const KeyPage* page = page_of(battle, left, right);
+        const std::size_t participant = voter_of(data_, battle, file);
+        answers_.resize(data_.raters.size());
+        if (page && page->kind == PageKind::practice) return;
+        if (page && page->kind == PageKind::check) {
+            answers_[participant].push_back(answer_to(battle, *page, left));
+            return;
+        }
+        if (left.condition == right.condition)
+            battle.refuse(
+                format("model_a and model_b are both \"{}\"", key_.conditions[left.condition].name));
+        const std::string clip = page ? page->clip : clip_named(battle.at("input_code"));
+        add_vote(data_, battle,
+                 {.participant = participant,
+                  .left = left.condition,
+                  .right = right.condition,
+                  .clip = clip,
+                  .unit = page ? page->token : pair_named(clip, left.condition, right.condition)},
+                 asked_);
+    }
+
+    Dataset finish() {
+        bool any_checks = false;
+        for (std::size_t i = 0; i < answers_.size(); ++i) {
+            any_checks = any_checks || !answers_[i].empty();
+            data_.raters[i].answered += answers_[i].size();
+            data_.raters[i].failed = failed_checks(key_, pages_, answers_[i]);
+        }
+        for (const KeyCondition& condition : data_.conditions) data_.cells.push_back(condition.name);
+        if (!any_checks)
+            data_.notes.push_back("These files have no attention checks of the study: nobody is excluded.");
+        return std::move(data_);
+    }
+
+  private:
+    struct Side {
+        std::size_t condition = 0;
+        std::string video;  // token; empty: the condition was named
+    };
+
+    Side side_named(const Battle& battle, const std::string& column) const {
+        const std::string name = battle.at(column);
+        for (std::size_t i = 0; i < key_.conditions.size(); ++i) {
+            const std::string& condition = key_.conditions[i].name;
+            if (name == condition || name == condition_token(key_, condition)) return {.condition = i};
+        }
+        for (const KeyPage& page : key_.pages) {
+            const auto place = std::ranges::find(page.places, name, &KeyPlace::video);
+            if (place != page.places.end()) return {.condition = place->condition, .video = name};
+        }
+        battle.refuse(format(
+            "{} is \"{}\", which is no condition of the study and no token of one; give the folder of the study "
+            "that was answered",
+            column, name));
+    }
+
+    // None where conditions are named.
+    const KeyPage* page_of(const Battle& battle, const Side& left, const Side& right) const {
+        if (left.video.empty() || right.video.empty()) return nullptr;
+        const auto shows = [](const KeyPage& page, const std::string& video) {
+            return std::ranges::find(page.places, video, &KeyPlace::video) != page.places.end();
+        };
+        for (const KeyPage& page : key_.pages) {
+            if (left.video != right.video && shows(page, left.video) && shows(page, right.video))
+                return &page;
+        }
+        battle.refuse(
+            format("no page of the study shows \"{}\" and \"{}\" together", left.video, right.video));
+    }
+
+    std::string clip_named(const std::string& code) const {
+        const auto found = std::ranges::find_if(
+            key_.clips, [&](const std::string& clip) { return code == clip_token(key_, clip); });
+        return found == key_.clips.end() ? code : *found;
+    }
+
+    // The answer with these steps from equal. Battles know two steps, so that further ones are taken as the expected
+    // answer of that side.
+    PageAnswer answer_to(const Battle& battle, const KeyPage& page, const Side& left) const {
+        std::vector<std::size_t> order = {0, 1};
+        if (page.places.front().video != left.video) std::swap(order.front(), order.back());
+        const int steps = steps_of(battle);
+        const int count = static_cast<int>(judged_.answers.size()), half = count / 2;
+        int answer = count % 2 == 1 ? half + 1 - steps : steps > 0 ? 1 : steps < 0 ? 2 : 0;
+        if (half == 1) answer = steps == 0 ? answer : steps > 0 ? 1 : count;
+        const Json expected = page.expected.value(judged_.id, Json());
+        if (half > 2 && steps != 0 && expected.is_number_integer()) {
+            const Json shown = to_shown(expected, judged_, order, key_.layout);
+            const bool same_side = steps_towards_left(shown.get<int>(), judged_.answers.size()) * steps > 0;
+            if (same_side) answer = shown.get<int>();
+        }
+        return {.page = static_cast<std::size_t>(&page - key_.pages.data()),
+                .order = order,
+                .values = {{judged_.id, answer}},
+                .reasons = Json::object(),
+                .seconds =
+                    std::numeric_limits<double>::infinity()};  // nobody is too fast by a file without times
+    }
+
+    const StudyKey& key_;
+    StudyPages pages_;
+    Dataset data_;
+    Question judged_;                               // by attention checks
+    Question asked_;                                // of the votes; of several preferences none says which
+    std::vector<std::vector<PageAnswer>> answers_;  // to attention checks, of each rater
+};
 
 // Of a page of HEMVIP: which conditions stood there, and what was said of each.
 struct HemvipTrial {
@@ -213,7 +401,9 @@ std::size_t add_hemvip_trial(Dataset& data, const JsonValue& value, std::size_t 
     HemvipTrial trial{.participant = participant, .id = value.at("id").text()};
     for (const JsonValue& response : value.at("responses").items(1)) {
         trial.stimuli.push_back(response.at("stimulus").text());
-        trial.scores.push_back(response.at("score").json());
+        if (is_token(trial.stimuli.back()))
+            response.at("stimulus").refuse("is " + token_refusal(trial.stimuli.back()));
+        trial.scores.push_back(as_number(response.at("score").json()));
         if (is_check(trial.stimuli.back())) return 1;
         if (type == "videopc" && trial.scores.back() == kBroken) return 1;
     }
@@ -260,7 +450,7 @@ Dataset read_foreign_answers(const std::vector<fs::path>& files) {
             throw Error(
                 format("{}: is of another kind than the files before it; analyse them apart", file.string()));
         if (file.extension() == ".csv") {
-            read_battles(data, file);
+            read_lines(file, [&](const Battle& battle) { add_battle(data, battle, file.string()); });
         } else {
             read_hemvip(data, file);
         }
@@ -268,6 +458,17 @@ Dataset read_foreign_answers(const std::vector<fs::path>& files) {
     for (const KeyCondition& condition : data.conditions) data.cells.push_back(condition.name);
     data.notes.push_back("These files do not say which checks were failed: nobody is excluded.");
     return data;
+}
+
+Dataset read_battles(const std::vector<fs::path>& files, const StudyKey& key, const StudyPages& pages) {
+    BattlesOfStudy battles(key, pages, files.front().string());
+    for (const fs::path& file : files) {
+        if (file.extension() != ".csv")
+            throw Error(
+                format("{}: is of another kind than the files before it; analyse them apart", file.string()));
+        read_lines(file, [&](const Battle& battle) { battles.add(battle, file.string()); });
+    }
+    return battles.finish();
 }
 
 }  // namespace chironomia::study::analysis

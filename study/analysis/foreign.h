@@ -1,11 +1,13 @@
 // Answers of other front ends, which name their conditions themselves: battles.csv of GENEA's leaderboard,
-// and what HEMVIP saves.
+// and what HEMVIP saves. Battles may also name them by the tokens of a study that was exported.
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
 #include "study/analysis/dataset.h"
+#include "study/record/key.h"
+#include "study/record/pages.h"
 
 namespace chironomia::study::analysis {
 
@@ -15,7 +17,13 @@ namespace chironomia::study::analysis {
 //   HEMVIP        {testId, userId, trials: [{id, type: "video" or "videopc", responses: [{stimulus, score}]}]} or a
 //                 list of them. "video" has a score for each condition, "videopc" true for the preferred one.
 // A byte order mark before the first column is skipped. Throws Error, naming file and line or key, if a file
-// is neither or no UTF-8, files are of both kinds, or a value is wrong.
+// is neither or no UTF-8, files are of both kinds, a value is wrong, or a name is the token of a study's video.
 Dataset read_foreign_answers(const std::vector<std::filesystem::path>& files);
+
+// battles.csv of a study: model_a and model_b are its conditions, their tokens (condition_token) or tokens of videos,
+// and input_code is a clip, its token (clip_token) or anything else. Of two videos of an attention check the answer is
+// judged and no vote. Throws Error also if a name is none of them, or no page shows two videos.
+Dataset read_battles(const std::vector<std::filesystem::path>& files, const StudyKey& key,
+                     const StudyPages& pages);
 
 }  // namespace chironomia::study::analysis

@@ -199,11 +199,11 @@ std::vector<std::string> names_of_figures(const StudyPages& pages, std::size_t p
 }
 
 std::string condition_token(const ExportSource& source, const std::string& condition) {
-    return "S" + keyed_sha256(source.study.key.secret, "condition " + condition).substr(0, 8);
+    return condition_token(source.study.key, condition);
 }
 
 std::string clip_token(const ExportSource& source, const std::string& clip) {
-    return "c" + keyed_sha256(source.study.key.secret, "clip " + clip).substr(0, 12);
+    return clip_token(source.study.key, clip);
 }
 
 std::string sheet_name(std::size_t sheet) {

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/json_value.h"
+#include "core/hash.h"
 #include "core/text.h"
 
 namespace chironomia::study {
@@ -278,6 +279,14 @@ std::string names_of(const std::vector<KeyCondition>& all, const std::vector<std
 
 const std::string& condition_at(const StudyKey& key, const KeyPlace& place) {
     return key.conditions[place.condition].name;
+}
+
+std::string condition_token(const StudyKey& key, const std::string& condition) {
+    return "S" + keyed_sha256(key.secret, "condition " + condition).substr(0, 8);
+}
+
+std::string clip_token(const StudyKey& key, const std::string& clip) {
+    return "c" + keyed_sha256(key.secret, "clip " + clip).substr(0, 12);
 }
 
 const KeyVideo& video_named(const StudyKey& key, std::string_view token) {

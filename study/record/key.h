@@ -100,6 +100,10 @@ std::string names_of(const std::vector<KeyCondition>& all, const std::vector<std
 // The name of the condition that stands at a place.
 const std::string& condition_at(const StudyKey& key, const KeyPlace& place);
 
+// Opaque names for other front ends, in place of those that participants may not read: always the same.
+std::string condition_token(const StudyKey& key, const std::string& condition);  // "S0a1b2c3d"
+std::string clip_token(const StudyKey& key, const std::string& clip);
+
 // The video of a token that the key lists.
 const KeyVideo& video_named(const StudyKey& key, std::string_view token);
 

@@ -6,6 +6,7 @@
 #include "skinning/gltf/gltf.h"
 #include "study/analysis/answers.h"
 #include "study/analysis/foreign.h"
+#include "study/analysis/hemvip_answers.h"
 #include "study/corpus/manifest.h"
 #include "study/corpus/recording.h"
 #include "study/plan/from_folders.h"
@@ -57,6 +58,20 @@ void read_answer_file(const FuzzInput& input) {
     analysis::read_answers({input.file()}, key_of_seeds());
 }
 
+const StudyPages& pages_of_seeds() {
+    static const StudyPages pages = read_study_pages(source_dir() / "tests/fuzz/seeds/pages/pages.json");
+    return pages;
+}
+
+void read_battles_of_study(const FuzzInput& input) {
+    analysis::read_battles({input.file()}, key_of_seeds(), pages_of_seeds());
+}
+
+void read_hemvip_of_study(const FuzzInput& input) {
+    if (analysis::is_of_hemvip(input.file()))
+        analysis::read_hemvip_answers({input.file()}, key_of_seeds(), pages_of_seeds());
+}
+
 void read_foreign(const FuzzInput& input) {
     analysis::read_foreign_answers({input.file()});
 }
@@ -90,6 +105,8 @@ const AddFuzzReader kPages({"pages", "x.json",
                             [](const FuzzInput& input) { read_study_pages(input.file()); }});
 const AddFuzzReader kAnswers({"answers", "x.json", read_answer_file});
 const AddFuzzReader kBattles({"battles", "x.csv", read_foreign});
+const AddFuzzReader kBattlesOfStudy({"battles_of_study", "x.csv", read_battles_of_study});
+const AddFuzzReader kHemvipOfStudy({"hemvip_of_study", "x.json", read_hemvip_of_study});
 const AddFuzzReader kHemvip({"hemvip", "x.json", read_foreign});
 const AddFuzzReader kManifest({"manifest", "x.json", read_manifest});
 const AddFuzzReader kSegments({"segments", "x.csv", read_segments});
