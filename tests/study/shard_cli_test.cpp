@@ -26,29 +26,49 @@ using testing::TemporaryFolder;
 
 using Words = std::vector<std::string>;
 
+std::map<std::string, std::string> files_below(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const std::string& file : list_files(folder)) files[file] = read_text(folder / file);
+    return files;
+}
+
 class ShardCli : public ::testing::Test {
   protected:
     std::string in(const std::string& name) const { return (folder_ / name).string(); }
 
     // The sample plan with its four videos, small, slow and short.
-    void write_plan() const {
+    static void write_plan_in(const fs::path& folder) {
         const fs::path samples = source_dir() / "assets/samples";
-        fs::copy(samples, folder_.path(), fs::copy_options::recursive);
+        fs::copy(samples, folder, fs::copy_options::recursive);
         Json plan = read_json(samples / "plan.json");
         plan["render"]["size"] = {64, 36};
         plan["render"]["fps"] = 10;
+        plan["render"]["avatar"] = "mannequin";
         for (Json& clip : plan["clips"]) clip["cut"] = {0, 1};
-        write_json(folder_ / "plan.json", plan);
+        write_json(folder / "plan.json", plan);
     }
+    static Words build_words_in(const fs::path& folder, const std::string& name) {
+        return {
+            "study", "build",  (folder / "plan.json").string(), "--out", (folder / name).string(), "--seed",
+            "3",     "--quiet"};
+    }
+    void write_plan() const { write_plan_in(folder_.path()); }
     Words build_words(const std::string& name, const std::string& shard = "") const {
-        Words words = {"study", "build", in("plan.json"), "--out", in(name), "--seed", "3", "--quiet"};
+        Words words = build_words_in(folder_.path(), name);
         if (!shard.empty()) words.insert(words.end(), {"--shard", shard});
         return words;
     }
     std::map<std::string, std::string> files_of(const std::string& name) const {
-        std::map<std::string, std::string> files;
-        for (const std::string& file : list_files(folder_ / name))
-            files[file] = read_text(folder_ / name / file);
+        return files_below(folder_ / name);
+    }
+    // What one process makes of the plan, in another folder; the same for all tests.
+    static const std::map<std::string, std::string>& files_of_whole() {
+        static const std::map<std::string, std::string> files = [] {
+            const TemporaryFolder folder;
+            write_plan_in(folder.path());
+            EXPECT_EQ(run_chironomia(build_words_in(folder.path(), "whole")).exit_code, 0);
+            return files_below(folder / "whole");
+        }();
         return files;
     }
 
@@ -57,7 +77,6 @@ class ShardCli : public ::testing::Test {
 
 TEST_F(ShardCli, BuildsTheSameStudyInParts) {
     write_plan();
-    ASSERT_EQ(run_chironomia(build_words("whole")).exit_code, 0);
     {
         RunningChironomia third(build_words("study", "3/3"));
         const Outcome first = run_chironomia(build_words("study", "1/3"));
@@ -68,10 +87,10 @@ TEST_F(ShardCli, BuildsTheSameStudyInParts) {
     const Outcome built = run_chironomia(build_words("study"));
     EXPECT_EQ(built.exit_code, 0) << built.err;
     EXPECT_THAT(built.out, HasSubstr("4 videos (1 recorded now)"));
-    EXPECT_EQ(files_of("study"), files_of("whole"));
+    EXPECT_EQ(files_of("study"), files_of_whole());
     EXPECT_EQ(run_chironomia(build_words("study", "2/3")).out,
               in("study") + "\npart 2 of 3: 1 videos (0 recorded now)\n");
-    EXPECT_EQ(files_of("study"), files_of("whole"));
+    EXPECT_EQ(files_of("study"), files_of_whole());
 }
 
 // A walker leaves the picture, and sounds end before their clips.
@@ -113,35 +132,32 @@ TEST_F(ShardCli, WarnsOfWhatItRenders) {
 // Another machine may have the shared folder under another name.
 TEST_F(ShardCli, MakesTheSameBytesWhereverThePlanLies) {
     write_plan();
-    ASSERT_EQ(run_chironomia(build_words("whole")).exit_code, 0);
     fs::create_directory_symlink(folder_.path(), folder_ / "mounted");
     Words words = build_words("study", "1/1");
     words[2] = in("mounted/plan.json");
     ASSERT_EQ(run_chironomia(words).exit_code, 0);
     EXPECT_THAT(run_chironomia(build_words("study")).out, HasSubstr("4 videos (0 recorded now)"));
-    EXPECT_EQ(files_of("study"), files_of("whole"));
+    EXPECT_EQ(files_of("study"), files_of_whole());
 }
 
 TEST_F(ShardCli, GoesOnAfterAKilledPart) {
     write_plan();
-    ASSERT_EQ(run_chironomia(build_words("whole")).exit_code, 0);
     const Outcome killed =
         testing::signal_chironomia_at(folder_ / "study/private/work", SIGKILL, build_words("study", "1/2"));
     EXPECT_EQ(killed.exit_code, 128 + SIGKILL);
     EXPECT_EQ(run_chironomia(build_words("study", "2/2")).exit_code, 0);
     EXPECT_EQ(run_chironomia(build_words("study", "1/2")).exit_code, 0);
     EXPECT_THAT(run_chironomia(build_words("study")).out, HasSubstr("4 videos (0 recorded now)"));
-    EXPECT_EQ(files_of("study"), files_of("whole"));
+    EXPECT_EQ(files_of("study"), files_of_whole());
 }
 
 TEST_F(ShardCli, SaysThatTheDiskIsFullAndGoesOn) {
     write_plan();
-    ASSERT_EQ(run_chironomia(build_words("whole")).exit_code, 0);
     const Outcome full = testing::run_chironomia_with_file_limit(1000, build_words("study", "1/1"));
     EXPECT_EQ(full.exit_code, 3);
     EXPECT_THAT(full.err, HasSubstr("check free space"));
     EXPECT_EQ(run_chironomia(build_words("study")).exit_code, 0);
-    EXPECT_EQ(files_of("study"), files_of("whole"));
+    EXPECT_EQ(files_of("study"), files_of_whole());
 }
 
 TEST_F(ShardCli, RefusesWhatIsNoPart) {
