@@ -327,9 +327,17 @@ class BrokenFrames : public ::testing::TestWithParam<Form> {
     }
 
     void render(const std::string& motion, const std::string& rate) {
-        expect_sound({"render", "--quiet", "--motion", motion, "--size", "64x36", "--frames", "0:3", "--out",
-                      (folder_ / "out.mp4").string()},
+        expect_sound({"render", "--quiet", "--motion", motion, "--avatar", "mannequin", "--size", "64x36",
+                      "--frames", "0:3", "--out", (folder_ / "out.mp4").string()},
                      rate);
+    }
+
+    // Of a file or all of a folder.
+    static Outcome judge(const std::string& motions, const std::string& rate) {
+        const Outcome judged =
+            run_chironomia({"fit", "--quiet", motions, "--avatar", "mannequin", "--motion-fps", rate});
+        EXPECT_THAT(judged.exit_code, AnyOf(Eq(0), Eq(1), Eq(3))) << rate << "\n" << judged.err;
+        return judged;
     }
 
     TemporaryFolder folder_;
@@ -343,9 +351,7 @@ TEST_P(BrokenFrames, AreShownOrRefused) {
             render(motion, "10");  // the others differ by nothing that is drawn
     }
     // All of them in one go; a broken one does not keep the others from being judged.
-    const Outcome judged =
-        run_chironomia({"fit", "--quiet", (folder_ / "clips").string(), "--motion-fps", "10"});
-    EXPECT_THAT(judged.exit_code, AnyOf(Eq(0), Eq(1), Eq(3))) << judged.err;
+    const Outcome judged = judge((folder_ / "clips").string(), "10");
     EXPECT_THAT(judged.out, HasSubstr("middle-zero")) << judged.err;
 }
 
@@ -353,8 +359,7 @@ TEST_P(BrokenFrames, AreShownOrRefusedAtAnyRate) {
     const std::string motion = write({.name = "clip", .clip = {Shows::nobody}});
     for (const char* rate : {"0.01", "0.5", "1000"}) {
         convert(motion, rate);
-        const Outcome judged = run_chironomia({"fit", "--quiet", motion, "--motion-fps", rate});
-        EXPECT_THAT(judged.exit_code, AnyOf(Eq(0), Eq(1), Eq(3))) << rate << "\n" << judged.err;
+        judge(motion, rate);
     }
     render(motion, "1000");
 }
