@@ -26,9 +26,10 @@ constexpr std::size_t kLeftWrist = 6;
 
 // Of the first of eight speakers 6 intervals that all say alike, and 6 of their own for each further stretch.
 struct Intervals {
-    explicit Intervals(std::size_t wanted, std::size_t each = 1) : speakers(wanted), stretches(each) {
+    Intervals(std::size_t wanted, std::size_t each) : speakers(wanted), stretches(each) {
         index = testing::made(first_plan(), order);
         for (const CorpusEntry& entry : index.entries) records.push_back(read_interval(index, entry));
+        EXPECT_EQ(records.size(), 6 * wanted * each);
     }
 
     std::size_t speakers, stretches;
@@ -36,6 +37,16 @@ struct Intervals {
     CorpusOrder order{.kind = CorpusKind::intervals, .folder = folder.path(), .seed = 2};
     CorpusIndex index;
     std::vector<IntervalRecord> records;
+
+    // Of all tests, as making them takes longer than looking at them.
+    static const Intervals& of_all() {
+        static const Intervals all(8, 2);
+        return all;
+    }
+    // The 6 that all say alike, of the first speaker.
+    static std::vector<IntervalRecord> of_one() {
+        return {of_all().records.begin(), of_all().records.begin() + 6};
+    }
 
     CorpusPlan first_plan() const {
         CorpusPlan plan = plan_intervals({.order = order,
@@ -93,7 +104,7 @@ Manners manners_of(const Intervals& intervals, const std::string& speaker) {
 
 // Some gesture so rarely that 6 intervals hold three seconds of strokes.
 TEST(MakeIntervals, ShowTheStyleOfTheirSpeakers) {
-    const Intervals intervals(8, 2);
+    const Intervals& intervals = Intervals::of_all();
     std::vector<double> boxes, gestures, spatial, active;
     for (const IntervalRecord& record : intervals.records) {
         if (!record.id.ends_with("_0000")) continue;
@@ -168,7 +179,7 @@ std::string recognized(Rows others, const std::string& speaker, std::size_t inte
 
 // Chance recognizes one in eight.
 TEST(MakeIntervals, AllowToRecognizeTheirSpeakers) {
-    const Intervals intervals(8);
+    const Intervals& intervals = Intervals::of_all();
     Rows rows;
     for (const IntervalRecord& record : intervals.records) rows[record.speaker].push_back(mean_pose(record));
     ASSERT_EQ(rows.size(), 8u);
@@ -225,9 +236,7 @@ TEST(MakeIntervals, ShowQuickerWristsTheQuickerASpeakerIsOtherwiseAlike) {
 }
 
 TEST(MakeIntervals, HaveTheShapeOfPats) {
-    const Intervals intervals(1);
-    ASSERT_EQ(intervals.records.size(), 6u);
-    for (const IntervalRecord& record : intervals.records) {
+    for (const IntervalRecord& record : Intervals::of_one()) {
         const std::size_t frames = record.frames();
         EXPECT_EQ(record.pose.size(), frames * 104) << record.id;
         EXPECT_EQ(record.face.size(), frames * 140) << record.id;
@@ -241,8 +250,7 @@ TEST(MakeIntervals, HaveTheShapeOfPats) {
 }
 
 TEST(MakeIntervals, PlaceTheBodyAboutTheNeckWithTheHeadOnTop) {
-    const Intervals intervals(1);
-    for (const IntervalRecord& record : intervals.records) {
+    for (const IntervalRecord& record : Intervals::of_one()) {
         double lost = 0, width = 0;
         for (std::size_t t = 0; t < record.frames(); ++t) {
             EXPECT_EQ(place(record, t, 0), Vec2(0));
@@ -276,8 +284,7 @@ TEST(MakeIntervals, DoEverythingThatCanBeDoneWithASentence) {
 }
 
 TEST(MakeIntervals, GiveTheWordsOfEachFrame) {
-    const Intervals intervals(1);
-    for (const IntervalRecord& record : intervals.records) {
+    for (const IntervalRecord& record : Intervals::of_one()) {
         for (std::size_t t = 0; t < record.frames(); ++t) {
             const auto acts =
                 record.dialog_acts.begin() + static_cast<std::ptrdiff_t>(t * IntervalRecord::kDialogActs);
