@@ -48,10 +48,12 @@ TEST_F(Convert, TakesTheMotionWithAndWithoutItsOption) {
     ASSERT_EQ(run_chironomia({"convert", "--motion", kBvh, "--out", with}).exit_code, 0);
     ASSERT_EQ(run_chironomia({"convert", kBvh, "--out", without}).exit_code, 0);
     EXPECT_EQ(read_text(with), read_text(without));
-    EXPECT_EQ(run_chironomia({"fit", kBvh}).out, run_chironomia({"fit", "--motion", kBvh}).out);
+    EXPECT_EQ(run_chironomia({"fit", kBvh, "--avatar", "mannequin"}).out,
+              run_chironomia({"fit", "--motion", kBvh, "--avatar", "mannequin"}).out);
     EXPECT_EQ(run_chironomia({"measure", kBvh}).out, run_chironomia({"measure", "--motion", kBvh}).out);
     const auto rendered = [&](std::vector<std::string> motions, const char* name) {
-        std::vector<std::string> words = {"render", "--scene", "dyad", "--size", "64x36", "--frames", "0:2"};
+        std::vector<std::string> words = {"render", "--scene", "dyad",     "--avatar", "mannequin",
+                                          "--size", "64x36",   "--frames", "0:2"};
         words.insert(words.end(), {"--out", (folder_ / name / "%02d.png").string()});
         words.insert(words.end(), motions.begin(), motions.end());
         EXPECT_EQ(run_chironomia(words).exit_code, 0);
