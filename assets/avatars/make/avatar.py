@@ -17,12 +17,15 @@ GUMS_BACK = 0.002  # [m] behind the teeth, whose necks they would else cover
 TONGUE_SHIFT = (0, -0.0015, -0.010)  # [m] keeps it behind the teeth
 # Cheeks shade the teeth behind the canines, so that the corners of a mouth are dark: how far behind the foremost tooth
 # it begins, over which depth, and what is left. Ours, by eye on five people with lips parted, jaw dropped and smiling.
-TEETH_LIT, TEETH_FADE, TEETH_DARK = 0.007, 0.015, 0.10  # [m], [m], share of light
+TEETH_LIT, TEETH_FADE, TEETH_DARK = 0.007, 0.015, 0.20  # [m], [m], share of light
 TEETH_REDDEN = (1.0, 1.35, 1.45)  # powers of that share: light that is left has met the inside of the mouth
-TEETH_SPECULAR = 0.4  # of a surface in the open, so that dark teeth do not shine like metal; ours, by eye
+TEETH_SPECULAR = 0.1  # of a surface in the open, so that dark teeth do not shine like metal; ours, by eye
 TONGUE_TINT = (1.05, 0.87, 0.85)  # its back is else a dull brown in an open mouth; ours, by eye
+TONGUE_SPECULAR = 0.15  # as wet as it is, but in the shade of the mouth, which light from behind does not reach; ours
 # Of a vertex whose normal is further forward than this, so that the backs of teeth are thinned; ours, by eye.
 TEETH_FRONT_PRICE, TEETH_BACKWARD = 30.0, -0.4
+TEETH_LIT_PRICE = 8.0  # that price times this for the teeth in front; ours, by eye
+TEETH_WIDER = 0.06  # [share] so that they touch, and no dark slots are left between them; ours, by eye
 TEETH_FROM, GUMS_FROM = 0.106, 0.088  # [m, base mesh] what lies behind is never seen
 
 
@@ -181,6 +184,7 @@ class Maker:
             self.points, self.normals, self.body[near], self.package.base.uvs, self.body_uv[near], self.weights
         )
         places = surface.in_texture(face.points, face.uvs, face.triangles, paint.SKIN_SIZE)
+        texture = paint.mouth(texture, places, np.array(self.person.colours["lips"]))
         style, colour = hair.STYLES[self.person.hair], self.person.colours["hair"]
         self.material("skin", 0.55, image=paint.jpeg(hair.painted_scalp(texture, head, style, colour, places, 31), 86))
 
@@ -208,26 +212,35 @@ class Maker:
         points[:, 1] += np.where(lower, LOWER_TEETH_UP, -UPPER_TEETH_DOWN)
         points[:, 2] -= np.where(lower, LOWER_TEETH_BACK, 0)
         foremost = points[mesh.quads[~gums], 2].max()
+        whose = np.zeros(len(points), int)
+        whose[mesh.quads] = piece[:, None]
+        middles = np.stack([np.bincount(whose, points[:, k]) for k in range(3)], 1) / np.bincount(whose)[:, None]
+        wide = points + TEETH_WIDER * (points - middles[whose]) * [1, 0, 1]
         for name, kept, colour, rough, wanted in (
             ("teeth", ~gums & (depth_of_piece[piece] > TEETH_FROM), (0.96, 0.94, 0.88), 0.25, 900),
             ("gums", gums & (depth > GUMS_FROM), (0.78, 0.46, 0.44), 0.4, 450),
         ):
-            place = points - [0, 0, GUMS_BACK] if name == "gums" else points
-            part = self.add_plain(name, proxy, place, mesh.quads[kept], wanted)
+            place = points - [0, 0, GUMS_BACK] if name == "gums" else wide
+            price = np.where(place[:, 2] > foremost - TEETH_LIT - TEETH_FADE / 4, TEETH_LIT_PRICE, 1.0)
+            part = self.add_plain(name, proxy, place, mesh.quads[kept], (wanted, price))
             behind = np.clip((foremost - TEETH_LIT - part.points[:, 2]) / TEETH_FADE, 0, 1)
             light = 1 - (1 - TEETH_DARK) * behind * behind * (3 - 2 * behind)
             part.colours = light[:, None] ** TEETH_REDDEN
             self.material(name, rough, colour, specular=TEETH_SPECULAR)
 
-    def add_plain(self, name, proxy, points, quads, wanted):
-        """Part of a proxy without texture coordinates, welded and decimated."""
+    def add_plain(self, name, proxy, points, quads, fewer):
+        """Part of a proxy without texture coordinates, welded and decimated; `fewer` is how many triangles are wanted,
+        and the price (V) of a vertex."""
         normals = surface.normals_of(points, proxy.mesh.quads)
         moves = {m: fitting.carried(proxy, base) for m, base in self.moves.items()}
         moves = {m: move for m, move in moves.items() if np.linalg.norm(move, axis=1).max() > 10 * glb.LEAST_MOVE}
         turns = {m: surface.normals_of(points + move, proxy.mesh.quads) - normals for m, move in moves.items()}
         weights = fitting.carried_weights(proxy, self.weights)
         part = surface.build(points, normals, quads, None, None, weights, moves, turns)
-        part = surface.thinned(part, wanted, np.where(part.normals[:, 2] > TEETH_BACKWARD, TEETH_FRONT_PRICE, 1.0))
+        used = np.unique(quads)  # without texture coordinates vertices keep their order
+        wanted, price = fewer
+        front = np.where(part.normals[:, 2] > TEETH_BACKWARD, TEETH_FRONT_PRICE, 1.0)
+        part = surface.thinned(part, wanted, front * price[used])
         self.surfaces.append((name, part))
         return part
 
@@ -302,7 +315,8 @@ def make(package, person, path):
     maker.add_teeth()
     maker.add_proxy("tongue", package.proxy("tongue", "tongue01"), True, shift=TONGUE_SHIFT)
     tongue = package.image("proxies", "tongue", "tongue01", "textures", "tongue01_diffuse.png")
-    maker.material("tongue", 0.6, image=paint.jpeg(TONGUE_TINT * tongue[::2, ::2, :3]))
+    image = paint.jpeg(TONGUE_TINT * tongue[::2, ::2, :3])
+    maker.material("tongue", 0.6, image=image, specular=TONGUE_SPECULAR)
     glb.write_glb(path, person.name, maker.surfaces, maker.materials, maker.images, (rig.NAMES, rig.PARENTS, maker.joints), rig.strongest_four)
     count = {}
     for name, part in maker.surfaces:

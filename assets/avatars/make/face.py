@@ -13,6 +13,14 @@ SIDED = (1, 2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 16, 20, 45)
 MIDDLE = (17, 18, 19, 22, 23, 24, 25, 26, 28, 29, 34)
 SIDEWAYS = 30  # its sides are directions
 JAW_UNITS = (19, 26, 29, 30)  # these move teeth and tongue
+TONGUE_UNITS = (19, 26)  # here the tongue lies on a jaw that drops
+# A tongue that is shown: [m] how far it slides out, how far its tip bends down and over which length from the tip; how
+# much it rises over the lower teeth, how far behind the tip and how wide that is; how far the corners of the tip are
+# drawn back, and half of how wide it is; shares that it gets thinner and narrower. Ours, by eye on five people with the jaw dropped and not.
+TONGUE_OUT, TONGUE_BEND, TONGUE_BENT = 0.034, 0.010, 0.022
+TONGUE_OVER, TONGUE_OVER_AT, TONGUE_OVER_WIDE = 0.0045, 0.020, 0.018
+TONGUE_ROUND, TONGUE_TIP = 0.005, 0.011
+TONGUE_THIN, TONGUE_NARROW = 0.3, 0.2
 
 # Unit: [(target, gain, part of the face that it is taken from)]. "*" stands for both sides; a name with a slash is a
 # modelling target. Parts: whole, upper (what the skull holds), lower (what the jaw holds).
@@ -36,7 +44,7 @@ TARGETS = {
     16: [("mouth-part-later", 0.75, "lower")],
     17: [("mouth-eversion", 0.85, "whole")],
     18: [("mouth-pursing", 1.0, "whole")],
-    19: [("mouth-open", 0.3, "whole"), ("mouth-parling", 0.4, "whole")],
+    19: [("mouth-open", 0.42, "whole"), ("mouth-parling", 0.4, "whole")],
     20: [("mouth-retraction", 1.15, "whole"), ("mouth/mouth-scale-horiz-incr", 0.35, "whole")],
     22: [("mouth-protusion", 0.55, "whole")],
     23: [
@@ -87,6 +95,16 @@ def ramp(value, start, stop):
     return t * t * (3 - 2 * t)
 
 
+def rigid(places, moves, others):
+    """(N, 3) moves of the `others` (N, 3) as one body with `places` (M, 3), which move by `moves` (M, 3).
+
+    Kabsch, "A solution for the best rotation to relate two sets of vectors", Acta Crystallographica A32, 1976."""
+    middle = places.mean(0)
+    left, _, right = np.linalg.svd((places - middle).T @ (places + moves - middle - moves.mean(0)))
+    upright = np.diag([1, 1, np.sign(np.linalg.det(left @ right))])
+    return (others - middle) @ (left @ upright @ right) + middle + moves.mean(0) - others
+
+
 class FaceMoves:
     """Moves of the base mesh (V, 3) [m] of one person."""
 
@@ -97,6 +115,12 @@ class FaceMoves:
         self.jaw = (self.jaw + self.jaw[package.mirror]) / 2
         body = package.base.quads[package.base.groups == 0]
         self.links = surface.links(body, len(self.rest))
+        self.tongue, self.lower_teeth = (self.rows(f"helper-{part}") for part in ("tongue", "lower-teeth"))
+
+    def rows(self, group):
+        """Vertices of a group of the base mesh."""
+        base = self.package.base
+        return np.unique(base.quads[base.groups == base.group_names.index(group)])
 
     def target(self, name):
         """(V, 3) an expression target, mixed over the person's origins, or a modelling target."""
@@ -122,6 +146,8 @@ class FaceMoves:
 
     def unit(self, number):
         moves = sum((gain * self.part(part) * self.both(name) for name, gain, part in TARGETS[number]), np.zeros_like(self.rest))
+        if number in TONGUE_UNITS:  # the targets leave the tongue where it is
+            moves[self.tongue] = rigid(self.rest[self.lower_teeth], moves[self.lower_teeth], self.rest[self.tongue])
         moves += self.sculpted(number)
         for _ in range(SMOOTHINGS.get(number, 0)):
             moves = (moves + self.links @ moves) / 2
@@ -131,9 +157,7 @@ class FaceMoves:
 
     def mouth_parts(self):
         """Vertices of the teeth and the tongue."""
-        base = self.package.base
-        groups = [base.group_names.index(f"helper-{part}") for part in ("tongue", "upper-teeth", "lower-teeth")]
-        return np.unique(base.quads[np.isin(base.groups, groups)])
+        return np.concatenate([self.tongue, self.lower_teeth, self.rows("helper-upper-teeth")])
 
     def region(self, number):
         """(V, 1) 1 inside the region of a unit, 0 outside."""
@@ -156,14 +180,19 @@ class FaceMoves:
             moves[:, 2] = 0.009 * self.jaw
             moves[:, 1] = -0.002 * self.jaw
         if number == 19:
-            tongue = self.package.base.group_names.index("helper-tongue")
-            rows = np.unique(self.package.base.quads[self.package.base.groups == tongue])
-            z = self.rest[rows, 2]
-            out = ramp(z, z.min(), z.max())
-            moves[rows, 2] = 0.042 * out
-            moves[rows, 1] = -0.013 * out**2  # onto the lower lip; ours, by eye, as is how narrow the tip is
-            moves[rows, 0] = -0.3 * self.rest[rows, 0] * out**3
+            moves[self.tongue] = self.tongue_out()
         return moves
+
+    def tongue_out(self):
+        """(N, 3) the tongue slides over the lower teeth, gets thinner, and its tip bends onto the lower lip."""
+        x, y, z = self.rest[self.tongue].T
+        behind = z.max() - z
+        out = 1 - ramp(behind, 0, z.max() - z.min())
+        middle = (y.min() + y.max()) / 2
+        tip = np.clip(1 - behind / TONGUE_BENT, 0, 1)
+        back = TONGUE_ROUND * tip * np.minimum((x / TONGUE_TIP) ** 2, 1)
+        rise = TONGUE_OVER * np.exp(-(((behind - TONGUE_OVER_AT) / TONGUE_OVER_WIDE) ** 2)) - TONGUE_BEND * tip**2
+        return np.stack([-TONGUE_NARROW * x * out**3, rise - TONGUE_THIN * (y - middle) * out, TONGUE_OUT * out - back], 1)
 
     def sideways(self):
         """(V, 3) the jaw moved to the figure's left."""
