@@ -27,12 +27,13 @@ using testing::TemporaryFolder;
 
 class StudyOfSamples : public ::testing::Test {
   protected:
-    // The sample plan, small, slow and short enough to render quickly.
+    // The sample plan, small, slow, short and with an avatar that is loaded at once.
     StudyOfSamples() {
         const fs::path samples = source_dir() / "assets/samples";
         Json plan = read_json(samples / "plan.json");
         plan["render"]["size"] = {160, 90};
         plan["render"]["fps"] = 10;
+        plan["render"]["avatar"] = "mannequin";
         plan["clips"].erase(1);
         plan["clips"][0]["cut"] = {0, 2};
         fs::copy(samples, folder_.path(), fs::copy_options::recursive);
@@ -67,7 +68,11 @@ class StudyOfSamples : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
+// With the avatar of the samples, which has pictures on it.
 TEST_F(StudyOfSamples, IsBuiltAndProvedWithTheSameBytesForAnyNumberOfJobs) {
+    Json plan = read_json(folder_ / "plan.json");
+    plan["render"]["avatar"] = "neutral";
+    write_json(folder_ / "plan.json", plan);
     const Outcome built = run_chironomia(build_words("alone"));
     ASSERT_EQ(built.exit_code, 0) << built.err;
     EXPECT_THAT(built.out, HasSubstr("1 pages in 2 orders, 2 videos (2 recorded now)"));
