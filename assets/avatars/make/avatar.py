@@ -183,8 +183,9 @@ class Maker:
         face = surface.build(
             self.points, self.normals, self.body[near], self.package.base.uvs, self.body_uv[near], self.weights
         )
-        places = surface.in_texture(face.points, face.uvs, face.triangles, paint.SKIN_SIZE)
-        texture = paint.mouth(texture, places, np.array(self.person.colours["lips"]))
+        places = np.concatenate([face.points, face.normals], 1)
+        places = surface.in_texture(places, face.uvs, face.triangles, paint.SKIN_SIZE)
+        texture = paint.mouth(texture, places[..., :3], np.array(self.person.colours["lips"]))
         style, colour = hair.STYLES[self.person.hair], self.person.colours["hair"]
         self.material("skin", 0.55, image=paint.jpeg(hair.painted_scalp(texture, head, style, colour, places, 31), 86))
 

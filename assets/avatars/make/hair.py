@@ -7,7 +7,6 @@ to where the style combs it and to the ground. All lengths in metres, numbers ou
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import gaussian_filter
 from scipy.spatial import cKDTree
 
 from .surface import Surface
@@ -22,6 +21,16 @@ RUFFLE = 0.2  # of the normals of the layer under the strips, which would shine 
 SUNK = 0.002  # [m] under the skin, where that layer meets the hairline
 ROUGHNESS, ANISOTROPY = 0.4, 0.6  # of strands: light lies in a band round the head, wide across them and narrow along them
 BUN_ROLL = 0.6  # [rad] of the strips of a knot
+# The hairline that is painted on the scalp: [m] thickness and length of a hair, [m] below the hairline where hairs begin,
+# and over which height they get dense in front and at the sides; how sharp a hair is, and how differently dense.
+# Ours, by eye on five people at `head`, as are the numbers of partings and roots.
+HAIR_THICK, HAIR_LONG = 0.0005, 0.008
+EDGE_FROM, EDGE_FRONT, EDGE_SIDES, EDGE_SHARP, EDGE_SPREAD = 0.002, 0.012, 0.008, 0.7, 3.6
+EDGE_FULL = 1.4  # a density where no skin is left
+# How much of that density is lost along a parting, [m] half of its width; how much more there is beside it, where hair
+# that is combed away would leave a notch, [m] within which distance, where the layer under the strips is sunk too.
+PARTING_BARE, PARTING_WIDE, PARTING_LOW, PARTED = 1.9, 0.0013, 0.5, 0.012
+ROOTS = 0.12  # [share of its length] at most, that a strand begins later than its strip, so that strips have no edges
 UNDER = 0.42  # of the height of the outermost hair: where the closed layer under it lies
 
 # The edge of the hair: [rad] around the head from the front, [m] above the eyes.
@@ -57,7 +66,7 @@ STYLES = {
     "swept": Style("parted", 532, (0.105, 0.036, 0.020), 0.012, 0.012, parting=0.034, weight=0.5, lift=0.5, wave=(0.0015, 0.05)),
     "bob": Style("parted", 438, (0.235, 0.160, 0.110), 0.011, 0.015, parting=0.022, weight=0.9, hug=0.2, lift=0.3, wave=(0.002, 0.09)),
     "bun": Style(
-        "back", 370, (0.190, 0.150, 0.120), 0.006, 0.013, weight=0.0, lift=0.0, bun=0.034, roll=0.15, bare=0.003
+        "back", 370, (0.190, 0.150, 0.120), 0.006, 0.013, weight=0.0, lift=0.0, bun=0.034, roll=0.15, bare=0.006
     ),
 }
 
@@ -267,7 +276,10 @@ def underlayer(style, head, quads, points, normals, lines, random):
     high = np.clip((above - 0.005) / 0.03, 0, 1)
     if style.comb == "parted":  # hair lies flat where it parts
         high *= np.clip(np.abs(points[used][:, 0] - style.parting) / 0.03, 0.15, 1)
-    sunk = SUNK * np.clip(1 - above / 0.004, 0, 2)  # it leaves the skin along the hairline, not along edges of the mesh
+    sunk = SUNK * np.clip(1 - (above - style.bare) / 0.004, 0, 2)  # it leaves the skin along the hairline, not along edges of the mesh
+    if style.comb == "parted":
+        front = np.clip((points[used][:, 2] - head.middle[2]) / 0.03, 0, 1)
+        sunk = np.maximum(sunk, SUNK * front * np.clip(1.5 - np.abs(points[used][:, 0] - style.parting) / PARTED, 0, 1))
     layer = points[used] + (UNDER * style.layer * high - sunk)[:, None] * normals[used]
     quads = corners.reshape(-1, 4)
     triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
@@ -314,7 +326,7 @@ def texture(colour, seed, size=512):
         for _ in range(hairs):
             start = width * (0.5 + 0.42 * random.uniform(-1, 1))
             bend = width * 0.06 * np.sin(v * random.uniform(2, 7) + random.uniform(0, 6.28))
-            begin, end = 0.06 * random.uniform(0, 1) ** 2, random.uniform(0.84, 1.0)
+            begin, end = ROOTS * random.uniform(0, 1), random.uniform(0.84, 1.0)
             thick = random.uniform(0.9, 1.9) * np.clip((end - v) / 0.15, 0, 1) ** 0.5 * np.clip((v - begin) / 0.04, 0, 1) ** 0.5
             cover = np.clip(thick - np.abs(x - start - bend - (start - width / 2) * 0.15 * v) + 0.5, 0, 1) 
             light = random.normal(1.0, 0.26) * (0.72 + 0.28 * np.clip(v / 0.3, 0, 1)) * (1 + 0.05 * v)
@@ -325,15 +337,34 @@ def texture(colour, seed, size=512):
     return np.concatenate([np.clip(rgb, 0, 1), alpha[..., None]], -1)
 
 
+def _streaks(places, along, seed):
+    """(N) noise of deviation 1 at places (N, 3), smeared `along` (N, 3) unit, so that it looks like hairs.
+
+    Cabral and Leedom, "Imaging Vector Fields Using Line Integral Convolution", SIGGRAPH 1993, along straight lines; the
+    noise is a table that the cells of a grid share by the hash of Teschner et al., "Optimized Spatial Hashing for
+    Collision Detection of Deformable Objects", VMV 2003."""
+    table = np.random.RandomState(seed).standard_normal(4096)
+    total = np.zeros(len(places))
+    for far in np.arange(-HAIR_LONG / 2, HAIR_LONG / 2, HAIR_THICK):
+        x, y, z = np.floor((places + far * along) / HAIR_THICK).astype(np.int64).T
+        total += table[(x * 73856093 ^ y * 19349663 ^ z * 83492791) % len(table)]
+    return total / total.std()
+
+
 def painted_scalp(image, head, style, colour, places, seed):
-    """The skin's texture with the scalp under the hair darkened; `places` (H, W, 3) [m] of its texels, nan elsewhere."""
-    random = np.random.RandomState(seed)
+    """The skin's texture with the scalp under the hair darkened, at its edge by single hairs; `places` (H, W, 6) [m] of
+    its texels and their normals, nan elsewhere."""
     known = np.isfinite(places[..., 0])
-    above = head.above_hairline(places[known], style)
-    noise = gaussian_filter(random.standard_normal(image.shape[:2]), 2.5)[known]
-    fade = 0.005 + 0.005 * np.clip((places[known][:, 2] - head.middle[2]) / 0.05, 0, 1)  # softest in front
-    share = np.clip((above + 0.0012 * noise / noise.std() + 0.001) / fade, 0, 1)
-    share = 0.92 * share * share * (3 - 2 * share)
+    spots, normals = places[known][:, :3], places[known][:, 3:]
+    along = combed(style, head, spots)
+    along = _unit(along - (along * normals).sum(1, keepdims=True) * normals)
+    front = np.clip((spots[:, 2] - head.middle[2]) / 0.05, 0, 1)
+    dense = (head.above_hairline(spots, style) + EDGE_FROM) / (EDGE_SIDES + front * (EDGE_FRONT - EDGE_SIDES))
+    if style.comb == "parted":
+        aside = spots[:, 0] - style.parting
+        low, bare = (np.exp(-((aside / wide) ** 2)) for wide in (PARTED, PARTING_WIDE))
+        dense = np.minimum(dense, EDGE_FULL) + front * (PARTING_LOW * low - PARTING_BARE * bare)
+    share = 0.92 * np.clip(0.5 + EDGE_SHARP * (EDGE_SPREAD * (dense - 0.5) + _streaks(spots, along, seed)), 0, 1)
     image = image.copy()
     image[known] += share[:, None] * (np.array(colour) * 0.75 - image[known])
     return image
