@@ -11,6 +11,7 @@
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/skin.h"
 #include "tests/skinning/gltf/gltf_builder.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -141,14 +142,16 @@ TEST(GltfFuzz, ReadsTheWholeFile) {
 TEST(GltfFuzz, EveryBrokenFileIsReadOrRefused) {
     const TemporaryFolder folder;
     const Bytes whole = rich_file().glb();
+    const bool is_slow = testing::has_sanitizers();
+    const int mutations = is_slow ? 600 : 2000;
     int accepted = 0;
-    for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-        Random random(seed);
+    for (int i = 0; i < mutations; ++i) {
+        Random random(static_cast<std::uint64_t>(is_slow ? 2000 + i : i));
         accepted += read_or_refuse(folder / "x.glb", mutated(whole, random)) ? 1 : 0;
     }
     // Both ends were reached.
-    EXPECT_GT(accepted, 100);
-    EXPECT_LT(accepted, 1900);
+    EXPECT_GT(accepted, mutations / 20);
+    EXPECT_LT(accepted, mutations - mutations / 20);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "synth/corpus/corpus.h"
 #include "synth/corpus/record_file.h"
 #include "synth/corpus/record_files.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/support.h"
 #include "tests/synth/corpus/sample_records.h"
 
@@ -272,6 +273,7 @@ void expect_no_crash(const std::vector<std::byte>& bytes, const std::filesystem:
 template <typename Read>
 void flip_bytes(const std::filesystem::path& path, std::size_t step, Read read) {
     const std::vector<std::byte> whole = read_bytes(path);
+    if (testing::has_sanitizers()) step *= 3;
     for (std::size_t i = 0; i < whole.size(); i += step) {
         std::vector<std::byte> bytes = whole;
         bytes[i] ^= std::byte{0xff};

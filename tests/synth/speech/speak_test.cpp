@@ -9,6 +9,7 @@
 
 #include "core/files/files.h"
 #include "core/random.h"
+#include "tests/support/sanitizers.h"
 #include "tests/support/support.h"
 #include "tests/synth/speech/speech_support.h"
 
@@ -270,11 +271,14 @@ TEST(Speak, SpeaksAsTheVoiceOfASpeakerSays) {
     EXPECT_GT(pitch_of(say("remember", {.variant = "f2"}), 0), 1.2 * pitch_of(plain, 0));
 }
 
+// With sanitizers two of them: each is read by a helper of its own, in the same way.
 TEST(Speak, KnowsEveryVoiceThatTheBundledSpeakersMayHave) {
     std::vector<std::vector<float>> sounds;
+    std::vector<const char*> variants = {"",   "m1", "m2", "m3", "m4", "m5", "m6",        "m7",
+                                         "m8", "f1", "f2", "f3", "f4", "f5", "Mr serious"};
+    if (testing::has_sanitizers()) variants = {"m3", "Mr serious"};
     for (const char* language : {"en-us", "en-gb", "en-gb-scotland", "fr", "de"}) {
-        for (const char* variant : {"", "m1", "m2", "m3", "m4", "m5", "m6", "m7", "m8", "f1", "f2", "f3",
-                                    "f4", "f5", "Mr serious"}) {
+        for (const char* variant : variants) {
             const Speech speech = say("remember me", {.language = language, .variant = variant});
             expect_in_order(speech);
             EXPECT_THAT(sounds, ::testing::Not(::testing::Contains(speech.audio.samples)))
@@ -300,8 +304,9 @@ TEST(Speak, FindsTheWordsOfOddTexts) {
         "½",       "ЖЖ",    "aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa",
         "e\u0301", "[[x]]", "hm?!",
         "III",     "10:30"};
-    Random random(4711);
-    for (int round = 0; round < 40; ++round) {
+    Random random(testing::has_sanitizers() ? 4712 : 4711);
+    const int rounds = testing::has_sanitizers() ? 10 : 40;
+    for (int round = 0; round < rounds; ++round) {
         std::string text = "well";
         for (std::uint32_t i = 1 + random.below(20); i > 0; --i)
             text += (random.below(5) == 0 ? ", " : " ") +
