@@ -20,10 +20,15 @@ using testing::ranks_of;
 
 // Twelve dyads in six groups of three people.
 struct Dyads {
-    explicit Dyads(double seconds) {
+    Dyads() {
         index = testing::made(plan_dyads(order, testing::corpus_lexicon(),
-                                         {.dyads = 12, .seconds = seconds, .people = 3, .meetings = 2}),
+                                         {.dyads = 12, .seconds = 100, .people = 3, .meetings = 2}),
                               order);
+    }
+
+    static const Dyads& of_all_tests() {
+        static const Dyads all;
+        return all;
     }
 
     testing::TemporaryFolder folder;
@@ -58,7 +63,7 @@ void expect_turns(const DyadRecord& record) {
 }
 
 TEST(MakeDyads, LetsPeopleTakeTurnsAndKeepsTheStatedDelayAndStrength) {
-    const Dyads dyads(100);
+    const Dyads& dyads = Dyads::of_all_tests();
     std::vector<double> errors, strengths, scores;
     for (const CorpusEntry& entry : dyads.index.entries) {
         const DyadRecord record = read_dyad(dyads.index, entry);
@@ -79,7 +84,7 @@ TEST(MakeDyads, LetsPeopleTakeTurnsAndKeepsTheStatedDelayAndStrength) {
 }
 
 TEST(MakeDyads, LetsSomeMeetTwiceAndNobodyAcrossSplits) {
-    const Dyads dyads(1);
+    const Dyads& dyads = Dyads::of_all_tests();
     std::map<std::string, std::set<Split>> splits;
     std::map<std::string, int> meetings;
     for (const CorpusEntry& entry : dyads.index.entries) {
