@@ -21,11 +21,7 @@
 namespace chironomia {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr std::size_t kTalksEach = 1;  // half an hour takes the sanitized build too long
-#else
 constexpr std::size_t kTalksEach = 5;
-#endif
 
 constexpr double kMostAcceleration = 80;  // of a wrist, at 60 frames/s [m/s^2]
 
