@@ -49,7 +49,7 @@ std::vector<float> coverage(Avatar avatar, Scene scene, RenderSize size, const D
 // Intersection over union. The rasterizer has four places a pixel to see an edge, so the picture must be
 // large for its silhouette to be known well.
 double overlap(const Avatar& avatar, const Scene& scene, const Draw& raster, const Draw& rays) {
-    constexpr RenderSize kLarge{2400, 1800};
+    constexpr RenderSize kLarge{1600, 1200};
     const auto a = coverage(avatar, scene, kLarge, raster), b = coverage(avatar, scene, kLarge, rays);
     double both = 0, either = 0;
     for (size_t i = 0; i < a.size(); ++i) {
