@@ -343,10 +343,11 @@ void make_clips_small(std::vector<std::string>& words) {
             return std::find(words.begin(), words.end(), option) != words.end();
         };
         if (!is_given("--frames") && !is_given("--cut") && !is_given("--notice-at") && !is_given("--say-at"))
-            words.insert(words.end(), {"--frames", "0:20"});
+            words.insert(words.end(), {"--frames", "0:6"});
     } else if (words.size() > 2 && words[0] == "study" && words[1] == "build") {
         Json plan = read_json(words[2]);
         plan["render"]["size"] = {kWidth, kHeight};
+        plan["render"]["fps"] = 10;
         for (Json& clip : plan["clips"]) clip["cut"] = {2, 3};
         words[2] = (fs::path(words[2]).parent_path() / "small.json").string();
         write_json(words[2], plan);
