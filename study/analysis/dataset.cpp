@@ -59,7 +59,7 @@ std::string other_reason(const Json& reasons, const std::string& question) {
     return other.is_string() ? other.get<std::string>() : "";
 }
 
-// Whether this answer, as it was given, is one that needs reasons; those that a front end took all the same do not count.
+// Whether this answer, as it was given, is one that needs reasons; those that a front end took anyway do not count.
 bool asks_for_reasons(const Question& question, const Json& value) {
     return question.reasons && value != question.reasons->unless;
 }
@@ -102,7 +102,7 @@ void add_preference(Dataset& data, const Joining& join, const Asked& asked, cons
     data.preferences.push_back(std::move(preference));
 }
 
-// Of a rating or slider about the whole page: one that names a side is for one of two, any other of what the page shows.
+// Of a rating or slider without `each`: one that names a side is for one of two, any other of what the page shows.
 void add_page_score(Dataset& data, const Joining& join, const Asked& asked, const Json& value) {
     const std::vector<std::size_t> compared = compared_on(join.page, join.key);
     Score score{.participant = join.participant,
@@ -114,7 +114,7 @@ void add_page_score(Dataset& data, const Joining& join, const Asked& asked, cons
     } else if (compared.size() == 2 && names_a_side(asked.question, join.key.layout)) {
         const auto [first, second] = std::minmax(compared[0], compared[1]);
         score.cell = number_of(data.cells, pair_label(data, first, second));
-        // The least means the left one (of a triplet: very similar to A), so the score is reversed if that is the first.
+        // The least means the left one (of a triplet: like A), so the score is reversed if that is the first.
         if (compared[0] == first) score.value = reversed_value(asked.question, score.value);
     } else {
         score.cell = number_of(data.cells, label_of(data, compared));

@@ -16,8 +16,8 @@ struct Uncounted {
     std::size_t open_checks = 0;  // checks that were failed by leaving an optional question open
 };
 
-// Adds the notes of joined answers: what was not counted, questions of which neither the key nor the layout says whether
-// they name a side, and items that go against the others of their scale.
+// Adds the notes of joined answers: what was not counted, questions of which neither the key nor the layout says
+// whether they name a side, and items that go against the others of their scale.
 void add_notes(Dataset& data, const StudyKey& key, const Uncounted& uncounted);
 
 }  // namespace chironomia::study::analysis

@@ -110,8 +110,8 @@ Table votes_table(const TableSource& of) {
             "Pearson; p is that of the exact test of one half, Holm's is adjusted for all pairs of the "
             "question. Both take votes as independent, so that they find too much where participants differ "
             "and vote more than once: prefer the test of participants; the interval of the weighted share "
-            "(ties half, others by their steps from equal, so that clear ones of five answers count double) is from resampled "
-            "participants; clear answers are those that are further from equal than one step",
+            "(ties half, others by their steps from equal, so that clear ones of five answers count double) is from "
+            "resampled participants; clear answers are those that are further from equal than one step",
         .columns = {{"question", "question"},
                     {"first", "first"},
                     {"second", "second"},
@@ -181,10 +181,10 @@ Table elo_table(const TableSource& of) {
         .title = "Strengths on the scale of Elo",
         .note =
             "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one (2 for each step "
-            "from equal), 1 to either for a tie; all votes of a group count, also those between a condition and what is made of it, "
-            "but a group of two such has a share instead; 1000 is the mean of a group, 200 more are preferred in "
-            "76 % of decided votes; intervals of 95 % from resampled participants, who are taken as independent; the clips "
-            "are taken as given",
+            "from equal), 1 to either for a tie; all votes of a group count, also those between a condition and what "
+            "is made of it, but a group of two such has a share instead; 1000 is the mean of a group, 200 more are preferred in "
+            "76 % of decided votes; intervals of 95 % from resampled participants, who are taken as independent; the "
+            "clips are taken as given",
         .columns = {{"question", "question"},
                     {"group", "group", Show::whole},
                     {"condition", "condition"},

@@ -16,13 +16,13 @@ struct Vote {
     std::size_t participant = 0;
     std::size_t first = 0;  // condition
     std::size_t second = 0;
-    // Steps from equal: 1: the first slightly, 2: clearly, 3 and more: where there are more answers than five; 0: equal;
-    // below 0: the second.
+    // Steps from equal: 1: the first slightly, 2: clearly, 3 and more: where there are more answers than five;
+    // 0: equal; below 0: the second.
     int strength = 0;
 };
 
-// What a vote counts: a slight one 2 and a clear one 4, as in GENEA's leaderboard, and so on for further steps (ours). A
-// tie is one for each of the two.
+// What a vote counts: a slight one 2 and a clear one 4, as in GENEA's leaderboard, and so on for further steps (ours).
+// A tie is one for each of the two.
 inline constexpr double kStepWeight = 2;
 inline constexpr double kTieWeight = 1;
 

@@ -63,8 +63,8 @@ void warn_of_scores_of_pages(const Plan& plan, std::vector<std::string>& warning
             continue;
         if (plan.layout == Layout::triplet && question.kind == QuestionKind::rating) {
             warnings.push_back(format(
-                "{}: questions: \"{}\" is analysed as similarity of the reference to A (1) or to B ({}), and turned with "
-                "the videos; say that it is by \"sided\": true, or by \"sided\": false that it is not about A and B",
+                "{}: questions: \"{}\" is analysed as similarity of the reference to A (1) or to B ({}), and turned "
+                "with the videos; say that it is by \"sided\": true, or by \"sided\": false that it is not about A and B",
                 plan.file.string(), question.id, question.points));
             continue;
         }
@@ -74,8 +74,8 @@ void warn_of_scores_of_pages(const Plan& plan, std::vector<std::string>& warning
             plan.file.string(), question.id,
             plan.layout == Layout::parallel
                 ? ""
-                : "; if it goes from A to B, \"sided\": true, which is turned with the videos; if it is about the page as "
-                  "a whole, \"sided\": false"));
+                : "; if it goes from A to B, \"sided\": true, which is turned with the videos; if it is about the page "
+                  "as a whole, \"sided\": false"));
     }
 }
 

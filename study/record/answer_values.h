@@ -28,8 +28,8 @@ int steps_towards_left(int value, std::size_t answers);
 // Whether the first and the last place changed sides.
 bool is_mirrored(const std::vector<std::size_t>& order);
 
-// Whether an answer goes from the left video to the right one, so that it changes when they change places: a preference,
-// and a rating or a slider that is `sided`. One that does not say so is if it is a rating of a triplet.
+// Whether an answer goes from the left video to the right one, so that it changes when they change places: a
+// preference, and a rating or a slider that is `sided`. One that does not say so is if it is a rating of a triplet.
 bool names_a_side(const Question& question, Layout layout);
 
 // The value as if the videos had stood in the order of the places. `order`: the places from left to right as
