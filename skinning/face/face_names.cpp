@@ -117,6 +117,9 @@ constexpr std::array kOther = {
     KnownShape{"jaw", {30, 1}},
     KnownShape{"eyeclose", {45, 1}},
     KnownShape{"eyeclosed", {45, 1}},
+    KnownShape{"eyeupperclose", {45, 1}},
+    KnownShape{"eyelowerclose", {45, 1}},
+    KnownShape{"eyeupperwide", {5, 1}},
     KnownShape{"eyesclosed", {45, 1}},
     // VRoid: "Fcl_BRW_Angry"
     KnownShape{"fclbrwsorrow", {1, 1}},

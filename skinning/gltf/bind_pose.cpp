@@ -17,6 +17,7 @@ constexpr float kPosed = 3;  // [degrees]
 constexpr float kSameAxes = 60;  // [degrees]
 
 constexpr float kSameScale = 0.01f;  // as a share; ours
+constexpr float kSameBone = 0.02f;   // ours; of the length of a bone, which no pose changes
 
 float degrees_between(const Mat4& a, const Mat4& b) {
     const Quat turn = inverse(rotation_of(a)) * rotation_of(b);
@@ -43,12 +44,12 @@ struct BoundJoint {
 };
 
 struct BoundSkin {
-    std::vector<BoundJoint> joints;  // parents first; not empty
+    std::vector<BoundJoint> joints;  // that move vertices, parents first; not empty
+    std::vector<BoundJoint> others;  // whose matrices may hold anything
     std::vector<int> nodes;          // that carry its meshes
 };
 
-// A skin without matrices says nothing. Of its joints those count that move vertices, as the matrices of others may
-// hold anything; all of them where the file has no vertices.
+// A skin without matrices says nothing. All of its joints count as moving where the file has no vertices.
 BoundSkin bound_skin(const Avatar& avatar, size_t index) {
     BoundSkin bound;
     const Skin& skin = avatar.skins[index];
@@ -62,7 +63,7 @@ BoundSkin bound_skin(const Avatar& avatar, size_t index) {
         }
     }
     for (size_t j = 0; j < moves.size(); ++j) {
-        if (moves[j]) bound.joints.push_back({skin.joints[j], skin.joint_from_mesh[j]});
+        (moves[j] ? bound.joints : bound.others).push_back({skin.joints[j], skin.joint_from_mesh[j]});
     }
     std::ranges::stable_sort(bound.joints, {}, &BoundJoint::joint);
     return bound;
@@ -85,7 +86,8 @@ class Binder {
     explicit Binder(const Skeleton& skeleton)
         : skeleton_(skeleton),
           posed_(world_from_joints(skeleton, rest_transforms(skeleton))),
-          bound_(posed_.size()) {}
+          bound_(posed_.size()),
+          perhaps_(posed_.size()) {}
 
     // Whether any matrix mirrors, which no turn can describe.
     bool mirrored(const BoundSkin& skin) const {
@@ -108,6 +110,10 @@ class Binder {
             std::optional<Mat4>& world = bound_[static_cast<size_t>(joint)];
             if (!world) world = mesh * inverse(joint_from_mesh);
         }
+        for (const auto& [joint, joint_from_mesh] : skin.others) {
+            if (!mirrors(joint_from_mesh))
+                perhaps_[static_cast<size_t>(joint)] = mesh * inverse(joint_from_mesh);
+        }
     }
 
     BindPose result() const {
@@ -119,7 +125,12 @@ class Binder {
         for (size_t j = 0; j < joints.size(); ++j) {
             const Mat4 parent = joints[j].parent < 0 ? Mat4(1) : world[static_cast<size_t>(joints[j].parent)];
             const Mat4 posed = to_matrix(joints[j].rest);
-            if (bound_[j]) joints[j].rest = transform_from(inverse(parent) * *bound_[j]);
+            if (bound_[j]) {
+                joints[j].rest = transform_from(inverse(parent) * *bound_[j]);
+            } else if (perhaps_[j]) {
+                const Transform rest = transform_from(inverse(parent) * *perhaps_[j]);
+                if (is_same_bone(rest, joints[j].rest)) joints[j].rest = rest;
+            }
             world[j] = parent * to_matrix(joints[j].rest);
             if (const float turned = degrees_between(posed, to_matrix(joints[j].rest)); turned > most) {
                 most = turned;
@@ -133,6 +144,11 @@ class Binder {
     }
 
   private:
+    // Whether a joint stands where it stood on its parent: a head of meshes without a skin turns about its own place.
+    static bool is_same_bone(const Transform& bound, const Transform& posed) {
+        return distance(bound.translation, posed.translation) <= kSameBone * length(posed.translation);
+    }
+
     // Where a joint carries the mesh as the nodes stand.
     Mat4 world_from_mesh(const BoundJoint& joint) const {
         return posed_[static_cast<size_t>(joint.joint)] * joint.joint_from_mesh;
@@ -163,8 +179,9 @@ class Binder {
     }
 
     const Skeleton& skeleton_;
-    std::vector<Mat4> posed_;                 // (J) world_from_joint as the nodes stand
-    std::vector<std::optional<Mat4>> bound_;  // (J) world_from_joint as skins were bound
+    std::vector<Mat4> posed_;                   // (J) world_from_joint as the nodes stand
+    std::vector<std::optional<Mat4>> bound_;    // (J) world_from_joint as skins were bound
+    std::vector<std::optional<Mat4>> perhaps_;  // (J) the same of joints that move no vertices
 };
 
 }  // namespace

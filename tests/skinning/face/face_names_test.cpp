@@ -56,6 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
         Reading{"Cheek_Raise_L", 6, kLeft, NameFamily::facs}, Reading{"mouthDimpleR", 14, kRight},
         Reading{"mouthSmile.L", 12, kLeft}, Reading{"Key.browDown.R", 4, kRight},
         Reading{"mouthClose", 8, kBoth, NameFamily::arkit, .7f},
+        Reading{"face_shapes.ai_eyeUpperClose_L", 45, kLeft, NameFamily::other},
         Reading{"jawOpen.001", 26, kBoth, NameFamily::arkit, .7f},
         Reading{"h_expressions.LsmileClose_h", 12, kLeft, NameFamily::other},
         Reading{"h_expressions.ReyeClose_h", 45, kRight, NameFamily::other},
