@@ -127,9 +127,8 @@ class Binder {
             const Mat4 posed = to_matrix(joints[j].rest);
             if (bound_[j]) {
                 joints[j].rest = transform_from(inverse(parent) * *bound_[j]);
-            } else if (perhaps_[j]) {
-                const Transform rest = transform_from(inverse(parent) * *perhaps_[j]);
-                if (is_same_bone(rest, joints[j].rest)) joints[j].rest = rest;
+            } else if (const auto rest = rest_of_other(j)) {
+                joints[j].rest = *rest;
             }
             world[j] = parent * to_matrix(joints[j].rest);
             if (const float turned = degrees_between(posed, to_matrix(joints[j].rest)); turned > most) {
@@ -144,9 +143,17 @@ class Binder {
     }
 
   private:
-    // Whether a joint stands where it stood on its parent: a head of meshes without a skin turns about its own place.
-    static bool is_same_bone(const Transform& bound, const Transform& posed) {
-        return distance(bound.translation, posed.translation) <= kSameBone * length(posed.translation);
+    // Of a joint that moves no vertices, as a head that is a mesh on its joint: its turn, where its matrix leaves it in
+    // its place on its parent, which no pose changes.
+    std::optional<Transform> rest_of_other(size_t joint) const {
+        const auto& [name, parent, rest] = skeleton_.joints[joint];
+        if (!perhaps_[joint] || parent < 0) return {};
+        const auto above = static_cast<size_t>(parent);
+        const std::optional<Mat4>& from = bound_[above] ? bound_[above] : perhaps_[above];
+        if (!from) return {};
+        Transform bound = transform_from(inverse(*from) * *perhaps_[joint]);
+        if (distance(bound.translation, rest.translation) > kSameBone * length(rest.translation)) return {};
+        return bound;
     }
 
     // Where a joint carries the mesh as the nodes stand.
