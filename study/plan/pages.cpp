@@ -135,8 +135,8 @@ void require_answered_checks(const JsonValue& checks, const Plan& plan) {
         if (!expected.contains(question.id)) continue;
         if (question.optional)
             checks.refuse(format(
-                "expects an answer to \"{}\", which is optional, so that whoever leaves it open would neither pass nor "
-                "fail; remove \"optional\" from it, or give it other answers than the first question that checks ask "
+                "expects an answer to \"{}\", which is optional, so that a participant who leaves it open would "
+                "neither pass nor fail; remove \"optional\" from it, or give it other answers than the first question that checks ask "
                 "for",
                 question.id));
         const bool is_asked = std::ranges::any_of(plan.passes, [&](const PagePass& pass) {

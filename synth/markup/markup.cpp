@@ -123,8 +123,11 @@ MarkupLanguage recognise_markup(std::string_view text) {
 
 MarkedText parse_marked_text(const MarkupSource& source, MarkupLanguage language) {
     MarkupSource clean = checked(source);
-    BlankedEmoji emoji = blank_emoji(clean.text);
-    clean.text = std::move(emoji.text);
+    BlankedEmoji emoji;
+    if (!source.is_heard) {  // each word of a recording stands
+        emoji = blank_emoji(clean.text);
+        clean.text = std::move(emoji.text);
+    }
     MarkedText text = parse(clean, language);
     if (emoji.count > 0)
         text.notes.push_back(format("{}: its {} emoji are not spoken", source.name, emoji.count));

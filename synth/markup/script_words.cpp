@@ -77,9 +77,12 @@ EmojiPart emoji_part(std::string_view character) {
     };
     // The colours of skin vary what is before them.
     if (between("\U0001f3fb", "\U0001f3ff")) return EmojiPart::joined;
-    // Symbols of weather and games to dingbats, clocks and players, stars and squares; pictographs and flags.
+    // Symbols of weather and games to dingbats, without signs of music and digits; clocks and players, stars and
+    // squares; pictographs and flags.
     for (const auto& [first, last] :
-         std::to_array<std::array<std::string_view, 2>>({{"\u2600", "\u27bf"},
+         std::to_array<std::array<std::string_view, 2>>({{"\u2600", "\u2668"},
+                                                         {"\u2670", "\u2775"},
+                                                         {"\u2794", "\u27bf"},
                                                          {"\u231a", "\u231b"},
                                                          {"\u23e9", "\u23fa"},
                                                          {"\u2b1b", "\u2b1c"},

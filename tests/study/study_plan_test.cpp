@@ -425,7 +425,7 @@ TEST_F(StudyPlan, ReadsChecksRulesAndCompletion) {
 
 // ---- Attention checks
 
-// Whoever leaves it open would neither pass nor fail.
+// A participant who leaves it open would neither pass nor fail.
 TEST_F(StudyPlan, RefusesAttentionChecksThatNobodyNeedAnswer) {
     Json open = kRating, same = kRating;
     open["optional"] = true;
@@ -433,8 +433,8 @@ TEST_F(StudyPlan, RefusesAttentionChecksThatNobodyNeedAnswer) {
     same["optional"] = true;
     EXPECT_EQ(
         refusal_with({{"questions", {open}}, {"checks", {{"count", 1}}}}),
-        "plan.json: checks: expects an answer to \"natural\", which is optional, so that whoever leaves it open "
-        "would neither pass nor fail; remove \"optional\" from it, or give it other answers than the first "
+        "plan.json: checks: expects an answer to \"natural\", which is optional, so that a participant who leaves "
+        "it open would neither pass nor fail; remove \"optional\" from it, or give it other answers than the first "
         "question that checks ask for");
     EXPECT_THAT(refusal_with({{"questions", {kRating, same}}, {"checks", {{"count", 1}}}}),
                 HasSubstr("checks: expects an answer to \"same\", which is optional"));

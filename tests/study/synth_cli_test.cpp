@@ -218,6 +218,16 @@ TEST_F(Synth, FindsTheStressedVowelsOfWordsWithoutPhonemes) {
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 0.01) << i;
 }
 
+TEST_F(Synth, KeepsEachWordOfARecording) {
+    write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(2 * 16000, 0.1f)});
+    write_text(file("w.csv"), "word,start,end\nhello,0.2,0.5\n\U0001f44d,0.6,0.8\nworld,1,1.5\n");
+    const Outcome made =
+        synth({"--speech", file("s.wav"), "--words", file("w.csv"), "--score-out", file("s.json")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err, Not(HasSubstr("emoji")));
+    EXPECT_EQ(read_json(file("s.json"))["words"].size(), 3u);
+}
+
 TEST_F(Synth, SaysWhyNoVoiceGivesPhonemes) {
     write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(2 * 16000, 0.1f)});
     write_text(file("w.csv"), "word,start,end\n東京,0.5,1.5\n");

@@ -16,7 +16,8 @@ JAW_UNITS = (19, 26, 29, 30)  # these move teeth and tongue
 TONGUE_UNITS = (19, 26)  # here the tongue lies on a jaw that drops
 # A tongue that is shown: [m] how far it slides out, how far its tip bends down and over which length from the tip; how
 # much it rises over the lower teeth, how far behind the tip and how wide that is; how far the corners of the tip are
-# drawn back, and half of how wide it is; shares that it gets thinner and narrower. Ours, by eye on five people with the jaw dropped and not.
+# drawn back, and half of how wide it is; shares that it gets thinner and narrower. Ours, by eye on five people with the
+# jaw dropped and not.
 TONGUE_OUT, TONGUE_BEND, TONGUE_BENT = 0.034, 0.010, 0.022
 TONGUE_OVER, TONGUE_OVER_AT, TONGUE_OVER_WIDE = 0.0045, 0.020, 0.018
 TONGUE_ROUND, TONGUE_TIP = 0.005, 0.011

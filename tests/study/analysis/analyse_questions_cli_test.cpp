@@ -127,7 +127,7 @@ TEST(AnalyseQuestions, TurnsARatingOfATripletUnlessItIsOfThePage) {
     EXPECT_THAT(outcome.out, Not(HasSubstr("sided")));
 }
 
-// A simulated rater who is told to prefer ours does so on a sided slider too.
+// A simulated rater who prefers ours does so on a sided slider too.
 TEST(AnalyseQuestions, RehearsesASidedSlider) {
     const TemporaryFolder folder;
     Json question = kFromLeftToRight;

@@ -54,7 +54,8 @@ TEST(MarkedText, HoldsNoEmoji) {
     EXPECT_THAT(words, ElementsAre("Well", "done", "I", "it"));
     EXPECT_EQ(text.script.find('\xf0'), std::string::npos);
     EXPECT_THAT(text.notes, ElementsAre("text: its 3 emoji are not spoken"));
-    EXPECT_THAT(marked("12 \u00a9 caf\u00e9 \u4e16\u754c \u0915\u094d\u200d\u0937").notes, IsEmpty());
+    EXPECT_THAT(marked("C\u266f \u2776 12 \u00a9 caf\u00e9 \u4e16\u754c \u0915\u094d\u200d\u0937").notes,
+                IsEmpty());
 }
 
 // A sentence that ends has a pause behind it, of which its gestures make a boundary.
