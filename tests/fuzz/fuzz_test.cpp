@@ -6,6 +6,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <memory>
 
 #include "core/files/files.h"
 #include "core/text.h"
@@ -85,6 +87,17 @@ TEST_P(FuzzedReader, ReadsOrRefusesDamagedSeeds) {
         EXPECT_NO_THROW(LLVMFuzzerTestOneInput(bytes.data(), bytes.size()));
         EXPECT_NO_THROW(LLVMFuzzerTestOneInput(bytes.data(), bytes.size() / 2));
     }
+}
+
+TEST(FuzzCommand, ListsEveryReader) {
+    const std::string command = (source_dir() / "tools/fuzz").string() + " --list";
+    const std::unique_ptr<FILE, int (*)(FILE*)> listing(popen(command.c_str(), "r"), pclose);
+    ASSERT_TRUE(listing);
+    std::string expected;
+    for (const std::string& name : testing::fuzz_reader_names()) expected += name + "\n";
+    std::string listed(expected.size() + 100, '\0');
+    listed.resize(std::fread(listed.data(), 1, listed.size(), listing.get()));
+    EXPECT_EQ(listed, expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, FuzzedReader, ::testing::ValuesIn(testing::fuzz_reader_names()),
