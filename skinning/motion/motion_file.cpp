@@ -52,39 +52,47 @@ KeypointData read_json_keypoints(const fs::path& file, const Json& json) {
     return keypoints_of_json(json, file.string());
 }
 
-// In the file's own axes and unit. The format is found by the first bytes.
-Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes, const MotionHints& hints) {
+struct Written {
+    Motion motion;  // in the file's own axes and unit
+    FileAxes axes{};
+};
+
+// The format is found by the first bytes.
+Written read_as_written(const fs::path& file, const std::vector<std::byte>& bytes, const MotionHints& hints) {
     const std::string_view text =
         without_byte_order_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     const auto named = [&](KeypointData data) {
         return name_keypoints(std::move(data), hints.fps, hints.name_map);
     };
+    const auto gltf = [&] {
+        return Written{read_gltf_motion(file, hints.fps, hints.animation), {.up = UpAxis::y}};
+    };
     refuse_fbx(file, text);
     refuse_other_formats(file, text);
-    if (begins_with_word(text, "hierarchy")) return parse_bvh(text, file.string(), hints.fps);
+    if (begins_with_word(text, "hierarchy")) return {parse_bvh(text, file.string(), hints.fps)};
     if (is_npy(bytes)) {
         NumpyArray array = parse_npy(bytes, file.string());
         if (are_turns(array)) {
             array.name = "poses";
-            return motion_of_smpl({array}, file.string(), hints.fps);
+            return {motion_of_smpl({array}, file.string(), hints.fps), {.is_body_model = true}};
         }
-        return named(read_npy_keypoints(file, array));
+        return {named(read_npy_keypoints(file, array))};
     }
     if (is_zip(bytes)) {
         const std::vector<NumpyArray> arrays = parse_npz(bytes, file.string());
-        if (holds_smpl(arrays)) return motion_of_smpl(arrays, file.string(), hints.fps);
-        return named(keypoints_of_arrays(arrays, file.string()));
+        if (holds_smpl(arrays))
+            return {motion_of_smpl(arrays, file.string(), hints.fps), {.is_body_model = true}};
+        return {named(keypoints_of_arrays(arrays, file.string()))};
     }
-    if (text.starts_with("glTF")) return read_gltf_motion(file, hints.fps, hints.animation);
+    if (text.starts_with("glTF")) return gltf();
     if (begins_with_word(text, "{") || begins_with_word(text, "[")) {
         const Json json = is_json_lines(text) ? parse_json_lines(text, file) : read_json(file);
-        if (json.is_object() && json.contains("asset"))
-            return read_gltf_motion(file, hints.fps, hints.animation);
-        if (holds_mediapipe(json)) return motion_of_mediapipe(json, file.string(), hints.fps);
-        if (holds_people(json)) return named(people_of_json(json, file.string()));
-        if (holds_arkit(json)) return face_of_arkit_json(json, file.string(), hints.fps);
-        if (holds_bodies(json)) return named(bodies_of_json(json, file.string()));
-        return named(read_json_keypoints(file, json));
+        if (json.is_object() && json.contains("asset")) return gltf();
+        if (holds_mediapipe(json)) return {motion_of_mediapipe(json, file.string(), hints.fps)};
+        if (holds_people(json)) return {named(people_of_json(json, file.string()))};
+        if (holds_arkit(json)) return {face_of_arkit_json(json, file.string(), hints.fps)};
+        if (holds_bodies(json)) return {named(bodies_of_json(json, file.string()))};
+        return {named(read_json_keypoints(file, json))};
     }
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
     if (to_lower(file.extension().string()) == ".bvh") {
@@ -92,8 +100,8 @@ Motion read_as_written(const fs::path& file, const std::vector<std::byte>& bytes
                            file.string()));
     }
     if (looks_like_table(text)) {
-        if (is_face_table(text, file.string())) return read_face_table(text, file.string(), hints.fps);
-        return named(keypoints_of_csv(text, file.string()));
+        if (is_face_table(text, file.string())) return {read_face_table(text, file.string(), hints.fps)};
+        return {named(keypoints_of_csv(text, file.string()))};
     }
     throw Error(format(
         "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, faces of "
@@ -154,9 +162,9 @@ Recorded read_as_recorded(const fs::path& file, const MotionHints& hints) {
         const Hdf5File tree(bytes, file.string());
         return {holds_pats(tree) ? read_pats(tree, hints.fps) : read_ours(tree, hints)};
     }
-    Motion motion = read_as_written(file, bytes, hints);
+    auto [motion, axes] = read_as_written(file, bytes, hints);
     // A face alone has no body that shows axes and unit; its readers know them.
-    if (has_body(motion)) motion = stand_upright(std::move(motion), hints);
+    if (has_body(motion)) motion = stand_upright(std::move(motion), hints, axes);
     return {std::move(motion), false};
 }
 

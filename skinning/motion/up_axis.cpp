@@ -95,7 +95,13 @@ class UpAxisChoice {
             return by_upper_body(*axis, *upper);
         ChosenUp chosen = by_whole_body();
         chosen.doubt = doubt_of(chosen.axis);
-        return chosen;
+        if (!evidence_.format_up || *evidence_.format_up == chosen.axis || chosen.doubt.empty())
+            return chosen;
+        const UpAxis up = *evidence_.format_up;
+        return {.axis = up,
+                .note = format("up axis: {}, as the format of the file has it; the body leaves it in doubt",
+                               name_of_axis(up)),
+                .doubt = doubt_of(up)};
     }
 
   private:

@@ -131,7 +131,8 @@ constexpr double kSmallest = 0.3, kTallest = 4;  // that a unit set by hand may 
 
 class Upright {
   public:
-    Upright(Motion motion, const MotionHints& hints) : motion_(std::move(motion)), hints_(hints) {
+    Upright(Motion motion, const MotionHints& hints, const FileAxes& axes)
+        : motion_(std::move(motion)), hints_(hints), axes_(axes) {
         if (hints_.unit && !(*hints_.unit > 0 && std::isfinite(*hints_.unit))) {
             throw Error(
                 format("{}: a unit of {} m was set; it must be above 0", motion_.source, *hints_.unit));
@@ -189,7 +190,7 @@ class Upright {
         const BodyFrame rest_body = find_body_frame(rest, 1);
         const UpAxis up = choose_up({.frames = frames,
                                      .rest_up = rest_body.up,
-                                     .is_model = holds_body_model(),
+                                     .is_model = axes_.is_body_model,
                                      .stays_in_place = begins_at_rest(track)});
         Standing standing = stand(up, frames, samples_.beginning);
         face_front(standing);
@@ -198,11 +199,6 @@ class Upright {
         const double unit = choose_unit(
             rest_body.height ? rest_body.height : find_body_frame(frames, samples_.beginning).height);
         apply(track, rest_turn, standing.turn, static_cast<float>(unit));
-    }
-
-    // What reads turns of SMPL says so first.
-    bool holds_body_model() const {
-        return !motion_.notes.empty() && motion_.notes.front().starts_with("SMPL");
     }
 
     void warn_if_left_handed(const std::vector<LandmarkFrame>& frames, UpAxis up) {
@@ -240,6 +236,7 @@ class Upright {
             return hints_.up;
         }
         evidence.beginning = samples_.beginning;
+        evidence.format_up = axes_.up;
         const ChosenUp chosen = choose_up_axis(evidence);
         note(chosen.note);
         if (!chosen.doubt.empty()) note(note_of_doubtful_up(chosen.doubt));
@@ -344,14 +341,15 @@ class Upright {
 
     Motion motion_;
     const MotionHints& hints_;
+    const FileAxes& axes_;
     Samples samples_;
     float yaw_ = 0;  // by which the body was turned about +y [rad]
 };
 
 }  // namespace
 
-Motion stand_upright(Motion motion, const MotionHints& hints) {
-    return Upright(std::move(motion), hints).run();
+Motion stand_upright(Motion motion, const MotionHints& hints, const FileAxes& axes) {
+    return Upright(std::move(motion), hints, axes).run();
 }
 
 Motion stand_picture_upright(Motion motion, UpAxis up) {

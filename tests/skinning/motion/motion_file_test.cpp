@@ -8,8 +8,10 @@
 #include "skinning/body/joint_landmarks.h"
 #include "skinning/fit/fit.h"
 #include "skinning/gltf/gltf.h"
+#include "skinning/gltf/gltf_write.h"
 #include "skinning/motion/bvh/bvh.h"
 #include "skinning/motion/motion_csv.h"
+#include "skinning/skin.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -234,6 +236,22 @@ TEST(ReadMotion, SaysThatLeftAndRightLookExchanged) {
         EXPECT_THAT(motion.notes, Each(Not(HasSubstr("look exchanged"))));
         EXPECT_FALSE(fit_motion(motion, avatar, {}).report.sides_look_exchanged);
     }
+}
+
+// glTF has y up, so whoever lies in it lies.
+TEST(ReadMotion, LetsAPersonLieInGltf) {
+    const testing::TemporaryFolder folder;
+    const auto mannequin = testing::source_dir() / "assets/avatars/mannequin.glb";
+    const Avatar avatar = read_avatar(mannequin);
+    Pose lying = rest_pose(avatar);
+    auto& hips = lying.joints[size_t(avatar.humanoid[HumanJoint::hips])];
+    hips.rotation = hips.rotation * glm::angleAxis(kPi / 2, Vec3(1, 0, 0));
+    write_animated_glb(folder / "lies.glb", mannequin, {avatar, std::vector<Pose>(9, lying), 30});
+    const Motion motion = read_motion(folder / "lies.glb");
+    EXPECT_THAT(motion.notes,
+                Contains("up axis: y, as the format of the file has it; the body leaves it in doubt"));
+    const LandmarkFrame frame = landmarks_of(*motion.joints, {0})[0];
+    EXPECT_LT(std::abs(normalize(place(frame, Landmark::head) - place(frame, Landmark::pelvis)).y), 0.3f);
 }
 
 TEST(MotionHints, AreReadFromWords) {

@@ -173,6 +173,10 @@ TEST(UprightMotion, LetsTheFloorDecide) {
         sunk.joints->translations[t * sunk.joints->skeleton.joints.size()] -= Vec3(0, 3, 3);
     EXPECT_EQ(doubt_of_up_axis(stand_upright(sunk, {})),
               "z was taken for up, but the rest pose stands along y; if somebody lies there, set --up y");
+    const Motion by_format = stand_upright(sunk, {}, {.up = UpAxis::y});
+    EXPECT_THAT(by_format.notes,
+                Contains("up axis: y, as the format of the file has it; the body leaves it in doubt"));
+    EXPECT_FALSE(stands_along_y(stand_upright(figure_in(kNoTurn, z_up, 1), {}, {.up = UpAxis::y})));
     Motion points = points_of(figure_in(z_up, z_up, 1));
     EXPECT_FALSE(stands_along_y(stand_upright(points, {})));
     EXPECT_EQ(doubt_of_up_axis(stand_upright(points, {})), std::nullopt);
