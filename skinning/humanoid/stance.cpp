@@ -1,7 +1,6 @@
 #include "skinning/humanoid/stance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/body/rest.h"
@@ -14,6 +13,8 @@ namespace {
 
 constexpr float kShortest = 0.5f, kTallest = 3.0f;  // [m] of figures that are taken at their word
 constexpr float kUsualHeight = 1.7f;                // [m]
+// [m] Ours, as of motions: a unit that makes a grown-up is likelier than one that makes a dwarf or a giant.
+constexpr float kShortGrownUp = 1.3f, kTallGrownUp = 2.1f;
 
 constexpr float kOffAxes = radians(10.0f);  // that a node makes up for
 
@@ -88,9 +89,13 @@ Quat axes_of(const Avatar& avatar, const Stance& stance) {
 
 float metres_per_unit(float height) {
     if (height >= kShortest && height <= kTallest) return 1;
-    for (const float unit : {0.01f, 0.1f, 0.0254f, 0.001f, 100.0f, 10.0f}) {
-        if (height * unit >= kShortest && height * unit <= kTallest) return unit;
-    }
+    const auto is_between = [&](float unit, float shortest, float tallest) {
+        return height * unit >= shortest && height * unit <= tallest;
+    };
+    for (const float unit : {0.01f, 0.1f, 0.0254f, 0.3048f, 0.001f, 100.0f, 10.0f})
+        if (is_between(unit, kShortGrownUp, kTallGrownUp)) return unit;
+    for (const float unit : {0.01f, 0.1f, 0.0254f, 0.001f, 100.0f, 10.0f})
+        if (is_between(unit, kShortest, kTallest)) return unit;
     return height > 0 ? kUsualHeight / height : 1;
 }
 

@@ -13,6 +13,7 @@
 namespace chironomia {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using testing::GltfBuilder;
 using ::testing::HasSubstr;
@@ -91,6 +92,18 @@ TEST(StandUpright, BringsCentimetresToMetres) {
     const Avatar avatar = read(humanoid_under({{"scale", {100, 100, 100}}}));
     expect_stands_as_usual(avatar);
     EXPECT_THAT(avatar.humanoid_notes, Contains(HasSubstr("was 180 units tall; scaled by 0.01 to 1.8 m")));
+}
+
+// Rather a grown-up than a dwarf: 6 feet, 70 inches; and a figure as tall as three children is as tall as usual.
+TEST(StandUpright, FindsOtherUnits) {
+    for (const auto& [scale, height, metres] : {std::tuple(3.35f, "6.03", "1.84"),
+                                                {39.37f, "70.87", "1.8"},
+                                                {2.0f, "3.6", "1.7"},
+                                                {0.0018f, "0.00324", "1.7"}}) {
+        const Avatar avatar = read(humanoid_under({{"scale", {scale, scale, scale}}}));
+        EXPECT_THAT(avatar.humanoid_notes, Contains(AllOf(HasSubstr(format("was {} units tall", height)),
+                                                          HasSubstr(format("to {} m", metres)))));
+    }
 }
 
 TEST(StandUpright, SetsTheFeetOnTheFloor) {
