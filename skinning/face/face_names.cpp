@@ -373,6 +373,8 @@ size_t length_of_all(const std::vector<std::string>& words) {
 }
 
 ShapeMeaning meaning_of_words(const std::vector<std::string>& words, bool expression) {
+    // Snap's "ca_jawOpen" corrects what the joint of the jaw does.
+    if (!words.empty() && words[0] == "ca") return {};
     for (size_t first = 0; first < words.size(); ++first) {
         std::string key;
         for (size_t w = first; w < words.size(); ++w) key += words[w];

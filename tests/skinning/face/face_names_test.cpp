@@ -81,9 +81,10 @@ INSTANTIATE_TEST_SUITE_P(
         Reading{"vrc.blink_left", 45, kLeft, NameFamily::facs}));
 
 TEST(ShapeName, OfNothingKnownSaysNothing) {
-    for (const char* name : {"", "morph 3", "mouthLeft", "doublechin", "AU99", "AU6_AU12", "viseme_PP",
-                             "basis", "AE_AA_h", "jawOpen_mouthSmileLeft", "corrective_jawOpen_mouthSmile_R",
-                             "h_expressions.FV_h", "jaunty", "Fcl_ALL_Joy", "え", "笑い", "e"}) {
+    for (const char* name :
+         {"", "morph 3", "mouthLeft", "doublechin", "AU99", "AU6_AU12", "viseme_PP", "basis", "AE_AA_h",
+          "face_shapes.ca_jawOpen", "jawOpen_mouthSmileLeft", "corrective_jawOpen_mouthSmile_R",
+          "h_expressions.FV_h", "jaunty", "Fcl_ALL_Joy", "え", "笑い", "e"}) {
         const ShapeMeaning meaning = read_shape_name(name);
         EXPECT_TRUE(meaning.units.empty()) << name;
         EXPECT_EQ(meaning.look, Look::none) << name;
