@@ -33,11 +33,10 @@ void expect_address_space(RenderSize size) {
         static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
     const std::uint64_t needed = address_space_in_use() + kNeededByOpenGl + kNeededByPixel * pixels;
     if (needed <= limit.rlim_cur) return;
-    throw Error(
-        format("OpenGL: pictures of {}x{} need {} MB of address space, and the program may use {} MB; raise "
-               "the limit "
-               "(ulimit -v), or choose a smaller --size",
-               size.width, size.height, needed / kMegabyte, limit.rlim_cur / kMegabyte));
+    throw Error(format(
+        "OpenGL: pictures of {}x{} need {} MB of address space, and the program may use {} MB; raise the limit "
+        "(ulimit -v), or choose a smaller --size",
+        size.width, size.height, needed / kMegabyte, limit.rlim_cur / kMegabyte));
 }
 
 }  // namespace

@@ -175,11 +175,10 @@ class Upright {
         if (front >= kMirrored) return false;
         const int axis = direction_of(up).z != 0 ? 1 : 2;
         for (Vec3& point : track.points) point[axis] = -point[axis];
-        note(
-            format("axes: left-handed (with left and right as named, nose, toes and knees lie behind: "
-                   "{:.2f}); {} was "
-                   "negated",
-                   front, "xyz"[axis]));
+        note(format(
+            "axes: left-handed (with left and right as named, nose, toes and knees lie behind: {:.2f}); {} was "
+            "negated",
+            front, "xyz"[axis]));
         return true;
     }
 

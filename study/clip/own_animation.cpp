@@ -28,11 +28,10 @@ std::size_t count_frames(const AnimatedScene& file, const Animation& animation, 
     const auto nodes = static_cast<double>(scene.skeleton.joints.size() + scene.rest_morph_weights.size());
     const double most = std::floor(kMostTransforms / nodes);
     if (frames <= most) return static_cast<std::size_t>(frames);
-    throw Error(
-        format("{}: animation {} lasts {:.3f} s, which is {:.0f} frames; of its {:.0f} nodes and morphs at "
-               "most {:.0f} "
-               "frames can be shown; shorten it, or choose a lower --fps",
-               scene.source, shown(animation), animation.seconds, frames, nodes, most));
+    throw Error(format(
+        "{}: animation {} lasts {:.3f} s, which is {:.0f} frames; of its {:.0f} nodes and morphs at most {:.0f} "
+        "frames can be shown; shorten it, or choose a lower --fps",
+        scene.source, shown(animation), animation.seconds, frames, nodes, most));
 }
 
 // A picture that does not change: a clip lasts long enough to be seen, a stack needs no second one.

@@ -109,11 +109,10 @@ std::vector<CorpusEntry> split_by_participants(std::vector<CorpusEntry> entries,
     sort_by_id(entries);
     std::vector<Group> groups = linked_groups(entries);
     if (groups.size() < 3) {
-        throw Error(
-            format("{}: {} dyads fall into {} groups of people who never meet those of another, and train, "
-                   "validation "
-                   "and test need one each; say the \"split\" of each dyad yourself",
-                   where, entries.size(), groups.size()));
+        throw Error(format(
+            "{}: {} dyads fall into {} groups of people who never meet those of another, and train, validation "
+            "and test need one each; say the \"split\" of each dyad yourself",
+            where, entries.size(), groups.size()));
     }
     Random(seed).shuffle(groups);
     std::stable_sort(groups.begin(), groups.end(),

@@ -211,10 +211,10 @@ TEST(ClipWriter, RefusesAWrongOrder) {
     EXPECT_EQ(refusal("clip.mp4", {.fps = {0, 1}}), "0/1 is no frame rate; it must be above 0");
     EXPECT_EQ(refusal("clip.mp4", {.crf = 52}),
               "a crf of 52 is not between 0 (best) and 51 (worst); 18 looks like the original");
-    EXPECT_EQ(refusal("clip.mp4", {.preset = "hasty"}),
-              "there is no preset \"hasty\"; choose one of ultrafast, superfast, veryfast, faster, fast, "
-              "medium, slow, "
-              "slower, veryslow");
+    EXPECT_EQ(
+        refusal("clip.mp4", {.preset = "hasty"}),
+        "there is no preset \"hasty\"; choose one of ultrafast, superfast, veryfast, faster, fast, medium, slow, "
+        "slower, veryslow");
     EXPECT_EQ(refusal("clip.mp4", {}, Audio{48000, 1, {}}),
               "the sound is empty; give one with samples or none");
     EXPECT_TRUE(fs::is_empty(folder.path()));
@@ -253,10 +253,10 @@ TEST(ClipWriter, LeavesNothingWithoutFinish) {
 }
 
 TEST(ClipWriter, RefusesAPlaceThatCannotBeWritten) {
-    EXPECT_EQ(refusal_of([] { record("/proc/none/clip.mp4", 1, std::nullopt); }),
-              "/proc/none/clip.mp4: cannot be written (No such file or directory); check that the folder "
-              "exists and "
-              "is writable");
+    EXPECT_EQ(
+        refusal_of([] { record("/proc/none/clip.mp4", 1, std::nullopt); }),
+        "/proc/none/clip.mp4: cannot be written (No such file or directory); check that the folder exists and is "
+        "writable");
 }
 
 TEST(ClipWriter, SaysThatTheDiskIsFull) {

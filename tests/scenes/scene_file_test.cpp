@@ -121,10 +121,10 @@ TEST(MakeScene, RefusesWhatAFileMustNotHold) {
     EXPECT_EQ(refusal_of_text(R"({"camra": {}})"),
               "camra: unknown key; did you mean camera? use one of $schema, camera, lights, ambient, floor, "
               "backdrop, places, split");
-    EXPECT_EQ(refusal_of_text(R"({"camera": {"framming": "full"}})"),
-              "camera.framming: unknown key; did you mean framing? use one of framing, fov_deg, yaw_deg, "
-              "pitch_deg, "
-              "zoom, eye, target");
+    EXPECT_EQ(
+        refusal_of_text(R"({"camera": {"framming": "full"}})"),
+        "camera.framming: unknown key; did you mean framing? use one of framing, fov_deg, yaw_deg, pitch_deg, "
+        "zoom, eye, target");
     EXPECT_EQ(refusal_of_text(R"({"camera": {"framing": "torso"}})"),
               "camera.framing: \"torso\" is no framing; choose box, full, head or upper");
     EXPECT_EQ(refusal_of_text(R"({"camera": {"fov_deg": 0}})"),

@@ -63,10 +63,10 @@ TEST(CsvTable, RefusesWhatIsNoTable) {
     EXPECT_EQ(refusal_of([] { parse_csv_table("a,b\n", "a.csv"); }), "a.csv: no rows follow the header");
     EXPECT_EQ(refusal_of([] { parse_csv_table("a;b\n1\n", "a.csv"); }),
               "a.csv:2: 1 values, the header has 2 columns");
-    EXPECT_EQ(refusal_of([] { parse_csv_table("a\n1,5\n", "a.csv"); }),
-              "a.csv:2: 2 values, the header has 1 columns; if numbers are written with a comma, export them "
-              "with a "
-              "decimal point");
+    EXPECT_EQ(
+        refusal_of([] { parse_csv_table("a\n1,5\n", "a.csv"); }),
+        "a.csv:2: 2 values, the header has 1 columns; if numbers are written with a comma, export them with a "
+        "decimal point");
     const CsvTable table = parse_csv_table("a;b\n1;2,5\n", "a.csv");
     EXPECT_EQ(refusal_of([&] { number_in(table, table.rows[0], 1); }),
               "a.csv:2: column \"b\": \"2,5\" is no number; it is written with a comma, export it with a "

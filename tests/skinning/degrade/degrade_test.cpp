@@ -92,11 +92,11 @@ TEST(DegradationNamed, RefusesAnythingElse) {
     for (const char* text : {"", "slow", "frozen:1", "delayed", "delayed:0", "delayed:-5", "delayed:60001",
                              "damped:1", "damped:x", "damped:0.5:1", "jittered:0", "jittered:91",
                              "jittered:3:-1", "jittered:3:1:2", "jittered:nan"}) {
-        EXPECT_EQ(refusal_of([&] { degradation_named(text); }),
-                  "\"" + std::string(text) +
-                      "\" is no anchor; write frozen, mirrored, delayed:MS (up to 60000), damped:FACTOR (0 "
-                      "to below 1), "
-                      "or jittered:DEGREES (up to 90) with or without :SEED");
+        EXPECT_EQ(
+            refusal_of([&] { degradation_named(text); }),
+            "\"" + std::string(text) +
+                "\" is no anchor; write frozen, mirrored, delayed:MS (up to 60000), damped:FACTOR (0 to below "
+                "1), or jittered:DEGREES (up to 90) with or without :SEED");
     }
 }
 

@@ -233,9 +233,7 @@ TEST_F(OpenFaceFile, RefusesWhatOpenFaceWouldNotWrite) {
          "a.csv: there is no column \"timestamp\" or \"time\"; set the rate with --motion-fps"},
         {"timestamp,AU12_r\n0,1\n", "a.csv: 1 row, and a rate takes 2; set it with --motion-fps"},
         {"timestamp,AU12_c\n0,1\n0.04,1\n",
-         "a.csv: no column holds an intensity (AU01_r), the head (pose_Rx) or the gaze (gaze_0_x); export "
-         "one "
-         "of them"},
+         "a.csv: no column holds an intensity (AU01_r), the head (pose_Rx) or the gaze (gaze_0_x); export one of them"},
         {"timestamp,pose_Rx,pose_Rz\n0,0,0\n",
          "a.csv: there is pose_Rx, pose_Rz, but not pose_Ry; export them together"},
         {"timestamp,gaze_0_x,gaze_0_y,gaze_0_z\n0,0,0,-1\n",
@@ -500,9 +498,8 @@ TEST_F(ArkitFile, ReadsLiveLinkFace) {
 }
 
 constexpr const char* kLooks =
-    "eyeLookOutLeft,eyeLookInLeft,eyeLookUpLeft,eyeLookDownLeft,eyeLookOutRight,eyeLookInRight,"
-    "eyeLookUpRight,"
-    "eyeLookDownRight";
+    "eyeLookOutLeft,eyeLookInLeft,eyeLookUpLeft,eyeLookDownLeft,"
+    "eyeLookOutRight,eyeLookInRight,eyeLookUpRight,eyeLookDownRight";
 
 TEST_F(ArkitFile, LooksWhereTheCoefficientsSay) {
     const Motion motion =

@@ -67,10 +67,9 @@ TEST_F(ComparePage, ShowsTheVeryPicturesAndSwapsThem) {
     browser.open("file://" + (folder_ / "page.html").string());
     // The grey of the first pixel that an image shows.
     browser.evaluate(
-        "window.level = (image) => { const c = document.createElement('canvas'); c.width = 8; c.height = 4; "
-        "const d = c.getContext('2d'); d.drawImage(image, 0, 0); return d.getImageData(0, 0, 1, 1).data[0]; "
-        "};"
-        "window.at = (kind) => document.querySelector('.' + kind + ' img')");
+        "window.level = (image) => { const c = document.createElement('canvas'); c.width = 8; c.height = 4; const d = "
+        "c.getContext('2d'); d.drawImage(image, 0, 0); return d.getImageData(0, 0, 1, 1).data[0]; };window.at = (kind) "
+        "=> document.querySelector('.' + kind + ' img')");
     const auto level = [&](const std::string& kind) {
         return browser.evaluate("at('" + kind + "').decode().then(() => level(at('" + kind + "')))");
     };

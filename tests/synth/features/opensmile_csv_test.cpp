@@ -80,10 +80,10 @@ TEST(OpenSmile, ReadsAFile) {
 }
 
 TEST(OpenSmile, RefusesWhatIsMissingOrThereTwice) {
-    EXPECT_EQ(refusal(replaced(prosody_table(), "F0final_sma", "x")),
-              "lld.csv: none of the columns is f0 (F0final_sma or F0_sma or F0env_sma or F0final or F0env); "
-              "choose a "
-              "configuration that writes it");
+    EXPECT_EQ(
+        refusal(replaced(prosody_table(), "F0final_sma", "x")),
+        "lld.csv: none of the columns is f0 (F0final_sma or F0_sma or F0env_sma or F0final or F0env); choose a "
+        "configuration that writes it");
     EXPECT_THAT(refusal(replaced(prosody_table(), "frameTime", "x")),
                 HasSubstr("none of the columns is the time (frameTime or timestamp)"));
     EXPECT_EQ(refusal(replaced(prosody_table(), "pcm_loudness_sma", "F0final_sma")),

@@ -87,9 +87,8 @@ Agreement agreement_with(double truth, const PitchTrack& track) {
 
 TEST(SpokenPitch, IsThatOfVoicesThatKeepTheirs) {
     const MarkedText text = testing::script(
-        "The morning sun was warm, and we were all alone near the old yellow wall. You know, more than nine "
-        "women "
-        "may one day remember him, and nobody will ever say a word about it.");
+        "The morning sun was warm, and we were all alone near the old yellow wall. You know, more than nine women may "
+        "one day remember him, and nobody will ever say a word about it.");
     Agreement all;
     for (const char* variant : {"", "m3", "f2"}) {
         for (const int pitch : {30, 50, 75}) {

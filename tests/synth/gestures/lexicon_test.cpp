@@ -260,47 +260,38 @@ TEST_F(ReadLexicon, RefusesGesturesThatItDoesNotUnderstand) {
         {[](Json& j) { gesture_in(j).erase("category"); },
          "own.json: gesture \"offer\".category: is missing; add it"},
         {[](Json& j) { gesture_in(j)["category"] = "beet"; },
-         "own.json: gesture \"offer\".category: is \"beet\", which is none of \"adaptor\", \"beat\", "
-         "\"deictic\", "
+         "own.json: gesture \"offer\".category: is \"beet\", which is none of \"adaptor\", \"beat\", \"deictic\", "
          "\"emblem\", \"iconic\", \"metaphoric\"; did you mean \"beat\"?"},
         {[](Json& j) { gesture_in(j)["id"] = "My gesture"; },
-         "own.json: gestures[0].id: is \"My gesture\"; an id has small letters a to z, digits and _ only, "
-         "such as "
+         "own.json: gestures[0].id: is \"My gesture\"; an id has small letters a to z, digits and _ only, such as "
          "\"open_offer\""},
         {[](Json& j) { gesture_in(j)["repeats"] = "yes"; },
          "own.json: gesture \"offer\".repeats: is \"yes\", true or false is needed"},
         {[](Json& j) { gesture_in(j)["replaces"] = true; },
-         "own.json: gesture \"offer\": replaces \"offer\", which no earlier file has; correct the id or "
-         "remove "
+         "own.json: gesture \"offer\": replaces \"offer\", which no earlier file has; correct the id or remove "
          "\"replaces\""},
         {[](Json& j) { j["gestures"].push_back(gesture_in(j)); },
          "own.json: gesture \"offer\": there are two of the id \"offer\" in this file; rename one"},
         {[](Json& j) { gesture_in(j)["fixed"] = {"hand"}; },
-         "own.json: gesture \"offer\".fixed[0]: is \"hand\", which is none of \"wrist\", \"wrist_x\", "
-         "\"wrist_y\", "
+         "own.json: gesture \"offer\".fixed[0]: is \"hand\", which is none of \"wrist\", \"wrist_x\", \"wrist_y\", "
          "\"wrist_z\", \"palm\", \"shape\", \"swivel\""},
         {[](Json& j) { arm_in(j, 1)["touches"] = "knee"; },
          "own.json: gesture \"offer\".poses[1].arm.touches: is \"knee\", which is none of \"forearm\", \"hand\", \"head\", "
          "\"nothing\", \"trunk\", \"upper arm\""},
         {[](Json& j) { gesture_in(j)["functions"] = {"performative=gret"}; },
-         "own.json: gesture \"offer\".functions[0]: is \"performative=gret\", which no text can ask for; did "
-         "you mean "
-         "\"performative=greet\"? write a function that docs/markup.md lists, or a value of your own that "
-         "begins with "
+         "own.json: gesture \"offer\".functions[0]: is \"performative=gret\", which no text can ask for; did you mean "
+         "\"performative=greet\"? write a function that docs/markup.md lists, or a value of your own that begins with "
          "x-, such as \"world=x-spiral\""},
         {[](Json& j) { pose_in(j, 0)["phase"] = "stroke"; },
-         "own.json: gesture \"offer\".poses[0].phase: is \"stroke\" in the first pose; a gesture begins with "
-         "its "
+         "own.json: gesture \"offer\".poses[0].phase: is \"stroke\" in the first pose; a gesture begins with its "
          "preparation"},
         {[](Json& j) {
              gesture_in(j)["poses"].push_back({{"phase", "pre-stroke-hold"}});
          },
-         "own.json: gesture \"offer\".poses[2].phase: is \"pre-stroke-hold\" after \"stroke\"; put the "
-         "phases in the "
+         "own.json: gesture \"offer\".poses[2].phase: is \"pre-stroke-hold\" after \"stroke\"; put the phases in the "
          "order preparation, pre-stroke-hold, stroke, post-stroke-hold"},
         {[](Json& j) { pose_in(j, 1)["phase"] = "preparation"; },
-         "own.json: gesture \"offer\".poses: has no pose of phase \"stroke\"; add the one in which the "
-         "meaning is "
+         "own.json: gesture \"offer\".poses: has no pose of phase \"stroke\"; add the one in which the meaning is "
          "shown"},
     };
     for (const Refusal& refusal_expected : refusals)
@@ -312,8 +303,7 @@ TEST_F(ReadLexicon, RefusesPosesThatNoArmTakes) {
         {[](Json& j) {
              arm_in(j, 1)["palm"] = {"up", "down"};
          },
-         "own.json: gesture \"offer\".poses[1].arm.palm: is [\"up\",\"down\"], which points nowhere; leave "
-         "out "
+         "own.json: gesture \"offer\".poses[1].arm.palm: is [\"up\",\"down\"], which points nowhere; leave out "
          "opposites"},
         {[](Json& j) { arm_in(j, 1)["palm"] = Json::object(); },
          "own.json: gesture \"offer\".poses[1].arm.palm: is empty; name something in it"},
@@ -322,35 +312,28 @@ TEST_F(ReadLexicon, RefusesPosesThatNoArmTakes) {
          },
          "own.json: gesture \"offer\".poses[1].arm.palm.up: is 0, a number from 0.01 to 100 is needed"},
         {[](Json& j) { arm_in(j, 1)["palm"] = "left"; },
-         "own.json: gesture \"offer\".poses[1].arm.palm: is \"left\", which is none of \"up\", \"down\", "
-         "\"in\", "
+         "own.json: gesture \"offer\".poses[1].arm.palm: is \"left\", which is none of \"up\", \"down\", \"in\", "
          "\"out\", \"front\", \"back\""},
         {[](Json& j) {
              arm_in(j, 1)["fingers"] = {"up", "in"};
          },
-         "own.json: gesture \"offer\".poses[1].arm: has its fingers pointing where its palm faces, or the "
-         "opposite "
+         "own.json: gesture \"offer\".poses[1].arm: has its fingers pointing where its palm faces, or the opposite "
          "way; let them point across, such as palm \"up\" and fingers \"front\""},
         {[](Json& j) { arm_in(j, 0)["wrist"].erase("z"); },
          "own.json: gesture \"offer\".poses[0].arm.wrist.z: is missing; add it"},
         {[](Json& j) { arm_in(j, 1)["wrist"]["y"] = 2; },
          "own.json: gesture \"offer\".poses[1].arm.wrist.y: is 2, a number from -0.6 to 1.6 is needed"},
         {[](Json& j) { arm_in(j, 1)["shape"] = "opem"; },
-         "own.json: gesture \"offer\".poses[1].arm.shape: is \"opem\", which is none of \"relax\", \"open\"; "
-         "did you "
+         "own.json: gesture \"offer\".poses[1].arm.shape: is \"opem\", which is none of \"relax\", \"open\"; did you "
          "mean \"open\"?"},
         {[](Json& j) {
              arm_in(j, 1)["wrist"] = {{"y", 1.3}, {"z", "ZFar"}};
          },
-         "own.json: gesture \"offer\".poses[1].arm: has its wrist at x 0.25, y 1.30, z 0.95, where no arm "
-         "reaches; "
+         "own.json: gesture \"offer\".poses[1].arm: has its wrist at x 0.25, y 1.30, z 0.95, where no arm reaches; "
          "bring it nearer to the shoulder at x 0.33, y 0.51, z 0, or further off if it is at the shoulder"},
         {[](Json& j) { arm_in(j, 1)["palm"] = "out"; },
-         "own.json: gesture \"offer\".poses[1].arm: turns the hand 121 degrees further than forearm and "
-         "wrist "
-         "go "
-         "(twist -45, flexion 21, deviation 24); turn palm or fingers, move the wrist, or give another "
-         "swivel than "
+         "own.json: gesture \"offer\".poses[1].arm: turns the hand 121 degrees further than forearm and wrist go "
+         "(twist -45, flexion 21, deviation 24); turn palm or fingers, move the wrist, or give another swivel than "
          "0.35"},
         {[](Json& j) {
              pose_in(j, 1)["path"] = {{"shape", "line"}, {"turns", 2}};
@@ -368,8 +351,7 @@ TEST_F(ReadLexicon, RefusesPosesThatNoArmTakes) {
              pose_in(j, 1).erase("arm");
          },
          "own.json: gesture \"offer\".poses[1]: distinguishes right from left in a gesture for either hand; write "
-         "\"arm\", or "
-         "\"hands\": \"both\""},
+         "\"arm\", or \"hands\": \"both\""},
         {[](Json& j) { pose_in(j, 0).erase("arm"); },
          "own.json: gesture \"offer\".poses[0]: is the first pose and lacks its arm; add \"arm\""},
         {[](Json& j) {
@@ -377,8 +359,7 @@ TEST_F(ReadLexicon, RefusesPosesThatNoArmTakes) {
              pose_in(j, 0)["right"] = pose_in(j, 0)["arm"];
              pose_in(j, 0).erase("arm");
          },
-         "own.json: gesture \"offer\".poses[0]: is the first pose and lacks an arm; add \"arm\" for both "
-         "alike, or "
+         "own.json: gesture \"offer\".poses[0]: is the first pose and lacks an arm; add \"arm\" for both alike, or "
          "\"right\" and \"left\""},
     };
     for (const Refusal& refusal_expected : refusals)
@@ -390,8 +371,7 @@ TEST_F(ReadLexicon, RefusesHandsThatNobodyHas) {
         {[](Json& j) { j["shapes"] = Json::array(); },
          "own.json: shapes: is [], an object of shapes by their ids is needed"},
         {[](Json& j) { j["shapes"].erase("relax"); },
-         "own.json: there is no hand shape \"relax\", which hands at rest have; add it, or read the bundled "
-         "lexicon "
+         "own.json: there is no hand shape \"relax\", which hands at rest have; add it, or read the bundled lexicon "
          "first"},
         {[](Json& j) {
              j["shapes"]["open"]["index"] = {{"flexion", {10, 20}}};
@@ -400,8 +380,7 @@ TEST_F(ReadLexicon, RefusesHandsThatNobodyHas) {
         {[](Json& j) {
              j["shapes"]["open"]["index"] = {{"flexion", {10, 20, 30, 40}}};
          },
-         "own.json: shape \"open\".index.flexion: has 4 entries, the flexion of 3 joints is needed, from the "
-         "palm "
+         "own.json: shape \"open\".index.flexion: has 4 entries, the flexion of 3 joints is needed, from the palm "
          "outward"},
         {[](Json& j) {
              j["shapes"]["open"]["index"] = {{"flexion", {10, 130, 30}}};

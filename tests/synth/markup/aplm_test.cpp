@@ -90,10 +90,10 @@ TEST(Aplm, RefusesUnknownElementsAttributesAndValues) {
                 StartsWith("talk.aplm:1:8: <rhemee> is no element of APLM; did you mean rheme?"));
     EXPECT_THAT(refusal("<rheme wieght=\"1\">a</rheme>"),
                 StartsWith("talk.aplm:1:8: <rheme> has no attribute wieght; did you mean weig"));
-    EXPECT_EQ(refusal("<emotion type=\"joi\">a</emotion>"),
-              "talk.aplm:1:8: type \"joi\" is no value of emotion; did you mean joy? Known are joy, sadness, "
-              "anger, fear, "
-              "surprise, disgust; one of your own lexicon begins with x-");
+    EXPECT_EQ(
+        refusal("<emotion type=\"joi\">a</emotion>"),
+        "talk.aplm:1:8: type \"joi\" is no value of emotion; did you mean joy? Known are joy, sadness, anger, "
+        "fear, surprise, disgust; one of your own lexicon begins with x-");
     EXPECT_EQ(refusal("<emphasis level=\"x-huge\">a</emphasis>"),
               "talk.aplm:1:8: level \"x-huge\" is no value of emphasis; write one of low, medium, high");
     EXPECT_THAT(refusal("<world>a</world>"),

@@ -119,10 +119,9 @@ TEST(Ssml, RefusesWhatTheVoiceCannotSpeak) {
         refusal("<emphasis level=\"loud\">a</emphasis>"),
         "talk.ssml:1:9: level \"loud\" of <emphasis> cannot be spoken; write one of [strong moderate none "
         "reduced], or nothing else");
-    EXPECT_EQ(refusal("a<break time=\"long\"/>"),
-              "talk.ssml:1:10: time \"long\" of <break> cannot be spoken; write a time such as "
-              "500ms or "
-              "0.5s");
+    EXPECT_EQ(
+        refusal("a<break time=\"long\"/>"),
+        "talk.ssml:1:10: time \"long\" of <break> cannot be spoken; write a time such as 500ms or 0.5s");
     EXPECT_THAT(refusal("<prosody rate=\"quick\">a</prosody>"),
                 StartsWith("talk.ssml:1:9: rate \"quick\" of <prosody> cannot be spoken; write one o"));
     EXPECT_EQ(refusal("<prosody speed=\"2\">a</prosody>"),

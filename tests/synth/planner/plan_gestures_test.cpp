@@ -139,10 +139,10 @@ TEST(PlanGestures, ShowsANamedGestureOrElseItsFunction) {
     EXPECT_EQ(gestures[0].function, "performative=ask");
     named.value = "wve";
     named.reference = "";
-    EXPECT_EQ(refusal_of([&] { planned(spoken("one", {named}), 0); }),
-              "gesture \"wve\": none of the 6 gestures of the lexicon has this name; did you mean wave? "
-              "Write one that is "
-              "there, or say what it shows (reference=\"performative=ask\")");
+    EXPECT_EQ(
+        refusal_of([&] { planned(spoken("one", {named}), 0); }),
+        "gesture \"wve\": none of the 6 gestures of the lexicon has this name; did you mean wave? Write one that "
+        "is there, or say what it shows (reference=\"performative=ask\")");
 }
 
 TEST(PlanGestures, AnUnknownNameIsRefusedWithItsPlace) {

@@ -71,8 +71,7 @@ TEST(AccentsOf, HearsAllChannelsTogether) {
 // Most accents of a synthetic voice lie in vowels, and most of those are stressed.
 TEST(AccentsOf, FallsOnStressedVowels) {
     MarkedText text = testing::script(
-        "The enormous mountain was covered with beautiful flowers, and nobody had ever wandered over it "
-        "before. "
+        "The enormous mountain was covered with beautiful flowers, and nobody had ever wandered over it before. "
         "Remember the wonderful morning, when everybody was happy and singing.");
     const Speech speech = speak(text, {});
     const std::vector<double> accents = accents_of(speech.audio);

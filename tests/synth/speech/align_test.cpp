@@ -71,12 +71,12 @@ TEST(Align, GivesAWordWithoutLettersAShareOfTheWordBeforeIt) {
 }
 
 TEST(Align, RefusesTheFirstWordThatDiffers) {
-    EXPECT_EQ(refusal_of([] {
-                  align(script("one two 3"), recording({"one", "two", "three"}));
-              }),
-              "text and recording: at 2.00 s the text says \"3\" (word 3) and the recording says \"three\" "
-              "(word 3); "
-              "write the text as it is said");
+    EXPECT_EQ(
+        refusal_of([] {
+            align(script("one two 3"), recording({"one", "two", "three"}));
+        }),
+        "text and recording: at 2.00 s the text says \"3\" (word 3) and the recording says \"three\" (word 3); "
+        "write the text as it is said");
     EXPECT_EQ(
         refusal_of([] { align(script("one two"), recording({"one"})); }),
         "text and recording: at 1.00 s the text says \"two\" (word 2) and the recording ends; write the text "
@@ -87,10 +87,10 @@ TEST(Align, RefusesTheFirstWordThatDiffers) {
         }),
         "text and recording: at 1.00 s the text ends and the recording says \"two\" (word 2); write the text "
         "as it is said");
-    EXPECT_EQ(refusal_of([] { align(script("-"), recording({})); }),
-              "text and recording: at 0.00 s the text says \"-\" (word 1) and the recording ends; write the "
-              "text as "
-              "it is said");
+    EXPECT_EQ(
+        refusal_of([] { align(script("-"), recording({})); }),
+        "text and recording: at 0.00 s the text says \"-\" (word 1) and the recording ends; write the text as it "
+        "is said");
 }
 
 TEST(Align, LeavesNothingAloneWithNothing) {

@@ -553,10 +553,10 @@ TEST_F(TimedWordsOf, ReadMillisecondsAsWhisperTabulatesThem) {
 }
 
 TEST_F(TimedWordsOf, AreRefusedIfJsonIsOfAnotherKind) {
-    EXPECT_EQ(refusal(R"({"hello": 1})"),
-              "it holds no list of words, \"words\", \"segments\" or \"transcription\"; write [{\"word\": "
-              "\"hello\", "
-              "\"start\": 0.1, \"end\": 0.4}]");
+    EXPECT_EQ(
+        refusal(R"({"hello": 1})"),
+        "it holds no list of words, \"words\", \"segments\" or \"transcription\"; write [{\"word\": \"hello\", "
+        "\"start\": 0.1, \"end\": 0.4}]");
     EXPECT_EQ(refusal(R"({"segments": [{"words": [{"start": 1, "end": 2}]}]})"),
               "segments[0].words[0] has no \"word\"; write its text");
     EXPECT_EQ(refusal(R"([{"word": "a", "end": 2}])"),
@@ -585,10 +585,10 @@ TEST_F(TimedWordsOf, AreRefusedIfTheirTimesCannotBe) {
         refusal("hello,1,2\nworld,1.5,3\n"),
         "line 2: \"world\" starts at 1.500 s, before \"hello\" (line 1) ends at 2.000 s; write one voice, in "
         "order");
-    EXPECT_EQ(refusal("hello,9,10.2\n"),
-              "line 1: \"hello\" lies from 9.000 to 10.200 s, and the sound ends at 10.000 s; give the words "
-              "of this "
-              "sound");
+    EXPECT_EQ(
+        refusal("hello,9,10.2\n"),
+        "line 1: \"hello\" lies from 9.000 to 10.200 s, and the sound ends at 10.000 s; give the words of this "
+        "sound");
     EXPECT_EQ(refusal("hello,1,1\nworld,1,2\n"),
               "line 1: \"hello\" starts and ends at 1.000 s, where the next one starts; give it a length");
 }

@@ -144,10 +144,10 @@ TEST(TimeWords, GivesALittleTimeToWordsThatAreNotSpoken) {
 TEST(TimeWords, RefusesAWordThatIsLeftWithoutTime) {
     std::vector<std::string> alone(11);
     alone[0] = "a";
-    EXPECT_EQ(refusal_of([&] { timed("a - - - - - - - - - -", "@0 a", alone); }),
-              "espeak-ng: \"-\" (word 2 of 11) is not spoken in \"en\", and \"a\" beside it is too short to "
-              "share its "
-              "100 ms; write it as it is spoken, or leave it out");
+    EXPECT_EQ(
+        refusal_of([&] { timed("a - - - - - - - - - -", "@0 a", alone); }),
+        "espeak-ng: \"-\" (word 2 of 11) is not spoken in \"en\", and \"a\" beside it is too short to share its "
+        "100 ms; write it as it is spoken, or leave it out");
 }
 
 }  // namespace
