@@ -40,9 +40,12 @@ constexpr std::string_view kUnreadElements[] = {"constraint", "wait",        "lo
                                                 "pointing",   "postureShift"};
 constexpr std::string_view kUnreadOfFunctions[] = {"ref_type", "ref_id", "prop_type", "prop_value",
                                                    "target",   "main",   "character", "duration"};
-constexpr std::string_view kRootAttributes[] = {"id", "composition", "character", "characterId", "xmlns"};
+constexpr std::string_view kRootAttributes[] = {"id", "composition", "character", "characterId"};
 constexpr std::string_view kGestureAttributes[] = {"id",     "lexeme", "type",           "mode",
                                                    "amount", "target", "offsetDirection"};
+// Parts of the names of whom the speaker speaks to.
+constexpr std::string_view kPartners[] = {"user",    "camera",    "viewer", "listener",
+                                          "partner", "addressee", "player", "participant"};
 constexpr double kLongestSpeech = 86400;  // [s]
 constexpr std::string_view kFunctionTimes[] = {"start", "end", "regulation", "intensity"};
 
@@ -352,6 +355,17 @@ class BmlReader {
                           node.name));
     }
 
+    // What a gesture points at, by its target. Where things are is not known.
+    std::string pointed_at(const XmlNode& node) {
+        const std::string target = to_lower(attribute_or_empty(node, "target"));
+        for (const std::string_view partner : kPartners)
+            if (target.find(partner) != std::string::npos) return "partner";
+        if (!target.empty())
+            note(node, format("the place of \"{}\" is not known; <gesture> points to the side of the hand",
+                              attribute_or_empty(node, "target")));
+        return "object";
+    }
+
     void add_behaviour(const XmlNode& node, Mark mark) {
         mark.value = attribute_or_empty(node, "lexeme");
         if (node.name != "gesture") {
@@ -368,6 +382,7 @@ class BmlReader {
             mark.value = mark.reference;
         } else if (mark.reference.empty()) {
             mark.reference = function_of_gesture(mark.value);
+            if (mark.reference == "deictic=object") mark.reference = "deictic=" + pointed_at(node);
         }
         if (node.name == "gesture" && mark.value.empty())
             throw Error(
@@ -416,12 +431,14 @@ class BmlReader {
             note(node, format("reference \"{}\" names no function", text));
             return "";
         }
-        const std::string name(name_of(kind->kind));
+        std::string name(name_of(kind->kind));
         const std::string value =
             sign == std::string::npos ? "" : known_value(*kind, std::string_view(function).substr(sign + 1));
-        if (value.empty() && sign != std::string::npos)
+        if (!value.empty()) return name + "=" + value;
+        if (kind->kind == MarkKind::deictic) name += "=object";
+        if (sign != std::string::npos)
             note(node, format("reference \"{}\" has no known value and is read as {}", text, name));
-        return value.empty() ? name : name + "=" + value;
+        return name;
     }
 
     // From the first to the last time of the act; over all words if one of these times is not given by a word.

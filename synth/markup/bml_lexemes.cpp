@@ -33,7 +33,7 @@ constexpr Lexeme kFaceLexemes[] = {{"raisemouthcorner", "smile"},
                                    {"afraid", "afraid"},
                                    {"disgust", "disgusted"}};
 constexpr Lexeme kGestureLexemes[] = {
-    {"beat", "emphasis"}, {"point", "deictic"}, {"wave", "performative=greet"}};
+    {"beat", "emphasis"}, {"point", "deictic=object"}, {"wave", "performative=greet"}};
 
 // "raiseeyebrows" of "Raise_EyeBrows".
 std::string letters_of(std::string_view name) {

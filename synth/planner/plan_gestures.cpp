@@ -1,6 +1,7 @@
 #include "synth/planner/plan_gestures.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
 #include <string>
@@ -76,7 +77,32 @@ class Repertoire {
 
     const std::vector<std::size_t>& beats() const { return beats_; }
 
+    // Of what an author asked for by its meaning, and no gesture has; nothing of other marks.
+    std::optional<std::string> note_of_missing(const Mark& mark) const {
+        if (mark.kind == MarkKind::gesture) {
+            if (by_name_.contains(mark.value) || is_function_of_beats(mark.reference)) return std::nullopt;
+            if (!candidates_of(mark.reference).empty()) return std::nullopt;
+            return format("gesture \"{}\": no gesture of the lexicon shows {}; a beat is shown", mark.value,
+                          mark.reference);
+        }
+        const std::string function = function_of(mark);
+        if (!mark.value.starts_with("x-") || by_function_.contains(function)) return std::nullopt;
+        std::vector<std::string> names;
+        for (const auto& [name, gestures] : by_function_) names.push_back(name);
+        std::ranges::sort(names);
+        const std::optional<std::string> nearest = nearest_name(function, names);
+        return format("no gesture of the lexicon names {}{}; give one this function", function,
+                      nearest ? format(", but one names {}", *nearest) : "");
+    }
+
   private:
+    static bool is_function_of_beats(std::string_view function) {
+        const std::string_view kind = function.substr(0, function.find('='));
+        return std::ranges::any_of(
+            std::array{MarkKind::emphasis, MarkKind::pitch_accent, MarkKind::rheme, MarkKind::theme},
+            [&](MarkKind beat) { return kind == name_of(beat); });
+    }
+
     std::vector<std::size_t> candidates_of_name(const Mark& mark) const {
         if (const auto named = by_name_.find(mark.value); named != by_name_.end()) return {named->second};
         if (mark.reference.empty()) throw Error(unknown_gesture(mark.value, lexicon_));
@@ -145,6 +171,9 @@ class GesturePlanner {
         PlannedGestures planned;
         std::map<std::size_t, Choice> best;  // by word
         for (const PlannedAct& act : plan_.acts) {
+            const auto missing = repertoire_.note_of_missing(mark_of(act));
+            if (missing && std::ranges::find(planned.notes, *missing) == planned.notes.end())
+                planned.notes.push_back(*missing);
             std::optional<Choice> choice = choose(act);
             if (!choice) continue;
             const auto [other, is_first] = best.try_emplace(choice->word, *choice);

@@ -22,7 +22,7 @@ struct GesturePlan {
 
 struct PlannedGestures {
     std::vector<PlannedGesture> gestures;  // ascending by stroke_end
-    std::vector<std::string> notes;  // of gestures that were asked for by name: which are dropped, and why
+    std::vector<std::string> notes;        // of what was asked for: which gestures are dropped, or not there
 };
 
 // Throws Error, with the place in the text, if a gesture is asked for by a name alone that the lexicon does not have.

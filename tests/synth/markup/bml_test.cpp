@@ -238,6 +238,13 @@ TEST(Bml, ReadsTheGesturesOfItsCoreAsWhatTheyShow) {
     ASSERT_EQ(text.marks.size(), 3u);
     EXPECT_EQ(text.marks[0].reference, "emphasis");
     EXPECT_EQ(text.marks[1].reference, "performative=greet");
+    EXPECT_EQ(parsed("<gesture lexeme=\"POINT\"/>").marks.at(0).reference, "deictic=object");
+    EXPECT_EQ(parsed("<gesture lexeme=\"POINT\" target=\"User1\"/>").marks.at(0).reference,
+              "deictic=partner");
+    EXPECT_THAT(
+        parsed("<gesture lexeme=\"POINT\" target=\"greenBox\"/>").notes,
+        ElementsAre(
+            "talk.bml:1:85: the place of \"greenBox\" is not known; <gesture> points to the side of the hand"));
     ASSERT_EQ(text.asked_gestures.size(), 1u);
     EXPECT_EQ(text.asked_gestures[0].name, "hop");
 }
