@@ -70,9 +70,28 @@ MarkedText parse(const MarkupSource& source, MarkupLanguage language) {
     return {};
 }
 
-// Without the mark that some editors put before UTF-8.
+bool declares_latin_1(std::string_view text) {
+    if (!text.starts_with("<?xml")) return false;
+    return to_lower(text.substr(0, text.find("?>"))).find("iso-8859-1") != std::string::npos;
+}
+
+// The characters of ISO 8859-1 are the first 256 of Unicode.
+std::string utf8_of_latin_1(std::string_view text) {
+    std::string converted;
+    for (const char letter : text) {
+        const auto code = static_cast<unsigned char>(letter);
+        if (code < 0x80)
+            converted += letter;
+        else
+            converted += {static_cast<char>(0xc0 | (code >> 6)), static_cast<char>(0x80 | (code & 0x3f))};
+    }
+    return converted;
+}
+
+// In UTF-8, without the mark that some editors put before it.
 MarkupSource checked(const MarkupSource& source) {
     MarkupSource clean = source;
+    if (declares_latin_1(clean.text) && !is_utf8(clean.text)) clean.text = utf8_of_latin_1(clean.text);
     if (clean.text.starts_with("\xef\xbb\xbf")) clean.text.erase(0, 3);
     if (clean.text.size() > kMostBytes)
         throw Error(format("{}: holds {} bytes, at most {} are read; part it", source.name, clean.text.size(),

@@ -105,7 +105,7 @@ std::string_view usage_of(Form form) {
 
 void check_attribute(const XmlNode& element, const SsmlElement& known, const XmlAttribute& written,
                      const XmlSource& source) {
-    if (written.name.starts_with("xmlns") || written.name.starts_with("xsi:")) return;
+    if (written.name.starts_with("xsi:")) return;
     std::vector<std::string> names;
     for (const SsmlAttribute& attribute : known.attributes) {
         names.emplace_back(attribute.name);

@@ -161,6 +161,11 @@ std::size_t offset_of(const pugi::xml_node& node) {
     return static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0));
 }
 
+// "xmlns" and "xmlns:mstts" say where names come from, on whatever element they stand.
+bool is_namespace(std::string_view attribute) {
+    return attribute == "xmlns" || attribute.starts_with("xmlns:");
+}
+
 XmlNode convert(const pugi::xml_node& node, const XmlSource& source, std::size_t depth) {
     XmlNode converted{.name = node.name(), .text = node.value(), .at = offset_of(node)};
     converted.raw = node.type() == pugi::node_cdata;
@@ -169,6 +174,7 @@ XmlNode convert(const pugi::xml_node& node, const XmlSource& source, std::size_t
                format("<{}> lies {} elements deep, at most {} are read; nest less", converted.name, depth,
                       kDeepest));
     for (const pugi::xml_attribute& attribute : node.attributes()) {
+        if (is_namespace(attribute.name())) continue;
         if (converted.attributes.size() == kMostAttributes)
             refuse(source, converted.at,
                    format("<{}> has more than {} attributes; leave out what does not belong to it",
