@@ -103,8 +103,9 @@ class IntervalCutter {
                        "of all recordings",
                        sound_.rate, 0.5 * sound_.rate));
         }
-        if (auto note = note_of_silent_words(timed.words, recording.words, sound_, recording.audio))
-            cut_.notes.push_back(std::move(*note));
+        for (std::string& doubt :
+             doubts_of_word_times({timed.words, recording.words, sound_, recording.audio}))
+            cut_.notes.push_back(std::move(doubt));
         std::vector<CorpusWord> written;
         for (std::size_t w = 0; w < timed.words.size(); ++w) {
             const SpokenWord& word = timed.words[w];

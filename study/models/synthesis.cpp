@@ -218,8 +218,8 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Le
                    job.words->string()));
     }
     notes.insert(notes.end(), timed.notes.begin(), timed.notes.end());
-    if (auto note = note_of_silent_words(timed.words, *job.words, sound, *job.recording))
-        notes.push_back(std::move(*note));
+    for (std::string& doubt : doubts_of_word_times({timed.words, *job.words, sound, *job.recording}))
+        notes.push_back(std::move(doubt));
     const std::string language = language_of(job, timed, of_speaker, notes);
     const MarkedText text =
         has_script(job) ? parse(job, language, lexicon) : parse_words(timed, *job.words, language);

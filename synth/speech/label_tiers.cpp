@@ -1,7 +1,6 @@
 #include "synth/speech/label_tiers.h"
 
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 #include <string_view>
 
@@ -54,13 +53,6 @@ std::vector<LabelTier> tiers_of(const std::vector<LabelTier>& tiers, std::string
     return kept;
 }
 
-bool is_silence(const TimedLabel& label) {
-    static constexpr std::array<std::string_view, 10> kSilences = {"",      "sil", "sp",   "spn",   "<eps>",
-                                                                   "<sil>", "<p>", "<p:>", "<nib>", "#"};
-    const std::string text = to_lower(trim(label.text));
-    return std::find(kSilences.begin(), kSilences.end(), text) != kSilences.end();
-}
-
 }  // namespace
 
 TimedLabels labels_of_tiers(const std::vector<LabelTier>& all, const std::string& file,
@@ -80,7 +72,6 @@ TimedLabels labels_of_tiers(const std::vector<LabelTier>& all, const std::string
     TimedLabels labels;
     if (words != nullptr) labels.words = words->labels;
     if (phones != nullptr) labels.phones = phones->labels;
-    std::erase_if(labels.words, is_silence);
     if (only != nullptr && tiers.size() == 1) {
         labels.notes.push_back(
             format("{}: its only tier, \"{}\", was taken for the words", file, only->name));

@@ -89,6 +89,38 @@ TimedLabels read_labels(const fs::path& file, double duration, std::string_view 
     return labels;
 }
 
+// As aligners mark what is not said.
+bool is_silence(const TimedLabel& label) {
+    static constexpr std::string_view kSilences[] = {
+        "",    "sil",  "sp",   "spn",  "<eps>", "<sil>", "<p>",   "<p:>", "<nib>", "#",
+        "pau", "ssil", "!sil", "{sl}", "!null", "h#",    "[sil]", "<s>",  "</s>"};
+    const std::string text = to_lower(trim(label.text));
+    return std::ranges::find(kSilences, text) != std::end(kSilences);
+}
+
+// "[noise]", "<VOCNOISE>", "{LG}", "(laughs)", and "xxx" of CHAT. Several words in round brackets may be said.
+bool is_event(const TimedLabel& label) {
+    const std::string_view text = trim(label.text);
+    if (text == "xxx") return true;
+    if (text.size() < 2) return false;
+    const auto lies_in = [&](char opening, char closing) {
+        return text.front() == opening && text.back() == closing && text.find(closing) == text.size() - 1;
+    };
+    if (lies_in('(', ')')) return text.find_first_of(" \t") == std::string_view::npos;
+    return lies_in('[', ']') || lies_in('<', '>') || lies_in('{', '}');
+}
+
+void leave_events_out(TimedLabels& labels, const std::string& file) {
+    std::erase_if(labels.words, is_silence);
+    const auto first = std::ranges::find_if(labels.words, is_event);
+    if (first == labels.words.end()) return;
+    const std::string shown = format("{}: \"{}\"", first->where, trim(first->text));
+    const auto count = std::erase_if(labels.words, is_event);
+    labels.notes.push_back(
+        format("{}: {} labels name sounds that are no words, and were left out; the first is {}", file, count,
+               shown));
+}
+
 struct WordFile {
     std::string file;
     double duration = 0;  // of the sound [s]
@@ -255,7 +287,8 @@ std::vector<SpokenWord> with_phonemes(std::vector<SpokenWord> words,
 }
 
 TimedWords read_timed_words(const fs::path& file, double duration, std::string_view speaker) {
-    const TimedLabels labels = read_labels(file, duration, speaker);
+    TimedLabels labels = read_labels(file, duration, speaker);
+    leave_events_out(labels, file.string());
     const WordFile place{.file = file.string(), .duration = duration};
     Times word_times(place, "words"), phone_times(place, "phonemes");
     TimedWords timed;

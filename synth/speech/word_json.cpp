@@ -44,13 +44,15 @@ class Reader {
             read_words(with_times_between(json_["words"]), "words");
         } else if (has_list(json_, "word_segments")) {
             read_words(with_times_between(json_["word_segments"]), "word_segments");
+        } else if (has_list(json_, "chunks")) {
+            read_words(words_of_chunks(), "chunks");
         } else if (has_list(json_, "transcription")) {
             read_transcription(json_["transcription"]);
         } else {
-            throw Error(
-                format("{}: it holds no list of words, \"words\", \"segments\" or \"transcription\"; write "
-                       "[{{\"word\": \"hello\", \"start\": 0.1, \"end\": 0.4}}]",
-                       file_));
+            throw Error(format(
+                "{}: it holds no list of words, \"words\", \"segments\", \"chunks\" or \"transcription\"; write "
+                "[{{\"word\": \"hello\", \"start\": 0.1, \"end\": 0.4}}]",
+                file_));
         }
         labels_.language = language();
         if (untimed_ > 0) {
@@ -87,6 +89,18 @@ class Reader {
             if (has_list(best, "words"))
                 read_words(best["words"], format("{}[{}].alternatives[0].words", place, i));
         }
+    }
+
+    // Hugging Face's: {"text": " hello", "timestamp": [0.1, 0.4]}, of which the last one may have no end.
+    Json words_of_chunks() const {
+        Json words = Json::array();
+        for (const Json& chunk : json_["chunks"]) {
+            Json& word = words.emplace_back(chunk);
+            if (!has_list(chunk, "timestamp") || chunk["timestamp"].size() != 2) continue;
+            word["start"] = chunk["timestamp"][0];
+            word["end"] = chunk["timestamp"][chunk["timestamp"][1].is_null() ? 0 : 1];
+        }
+        return words;
     }
 
     // What Vosk says of one stretch of sound after the other; where it heard nothing there are no words.

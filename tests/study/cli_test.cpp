@@ -545,8 +545,16 @@ TEST(Info, DescribesWordsInTime) {
         "{\"words\": [{\"word\": \"two\", \"start\": 0.1, \"end\": 0.3}, "
         "{\"word\": \"ways\", \"start\": 0.3, \"end\": 0.75}], "
         "\"segments\": [{\"text\": \"two ways\", \"start\": 0, \"end\": 1}]}");  // as OpenAI's service has them
-    for (const char* name :
-         {"a.json", "b.json", "c.csv", "d.json", "e.csv", "f.txt", "g.ctm", "h.tsv", "i.json"}) {
+    write_text(
+        folder / "j.json",
+        "{\"text\": \" two ways\", \"chunks\": [{\"text\": \" two\", \"timestamp\": [0.1, 0.3]}, "
+        "{\"text\": \" ways\", \"timestamp\": [0.3, 0.75]}]}");  // as Hugging Face's pipelines have them
+    write_text(
+        folder / "k.json",
+        "{\"results\": {\"channels\": [{\"alternatives\": [{\"words\": [{\"word\": \"two\", \"start\": 0.1, "
+        "\"end\": 0.3}, {\"word\": \"ways\", \"start\": 0.3, \"end\": 0.75}]}]}]}}");  // as Deepgram's
+    for (const char* name : {"a.json", "b.json", "c.csv", "d.json", "e.csv", "f.txt", "g.ctm", "h.tsv",
+                             "i.json", "j.json", "k.json"}) {
         const Outcome info = run_chironomia({"info", (folder / name).string()});
         EXPECT_EQ(info.out,
                   "words      2, 0 phonemes\n"
@@ -565,7 +573,7 @@ TEST(Info, DescribesWordsInTime) {
     }
     const Outcome grid =
         run_chironomia({"info", (source_dir() / "tests/fixtures/speech/two-ways.TextGrid").string()});
-    EXPECT_THAT(grid.out, HasSubstr("first      \"there\", 0.300 to 0.687 s"));
+    EXPECT_THAT(grid.out, HasSubstr("first      \"there\", 0.300 to 0.540 s"));
 }
 
 TEST(Info, DescribesAPicture) {

@@ -53,14 +53,16 @@ bool is_corpus(const fs::path& folder) {
 // As recognisers write them: a list of words, alone or under one of these keys, or what was heard in one stretch after
 // the other.
 bool are_words(const Json& json) {
-    for (const char* key : {"words", "segments", "transcription", "result"}) {
+    for (const char* key : {"words", "segments", "chunks", "transcription", "result"}) {
         if (json.is_object() && json.contains(key) && json[key].is_array()) return true;
     }
     const auto is_word_or_result = [](const Json& part) {
-        return part.is_object() && ((part.contains("start") && part.contains("end")) ||
-                                    part.contains("result") || part.contains("alternatives"));
+        return part.is_object() &&
+               ((part.contains("start") && (part.contains("end") || part.contains("duration"))) ||
+                part.contains("result") || part.contains("alternatives"));
     };
-    const Json& list = json.is_object() && json.contains("results") ? json["results"] : json;
+    const Json& results = json.is_object() && json.contains("results") ? json["results"] : json;
+    const Json& list = results.is_object() && results.contains("channels") ? results["channels"] : results;
     return list.is_array() && std::any_of(list.begin(), list.end(), is_word_or_result);
 }
 

@@ -555,7 +555,7 @@ TEST_F(TimedWordsOf, ReadMillisecondsAsWhisperTabulatesThem) {
 TEST_F(TimedWordsOf, AreRefusedIfJsonIsOfAnotherKind) {
     EXPECT_EQ(
         refusal(R"({"hello": 1})"),
-        "it holds no list of words, \"words\", \"segments\" or \"transcription\"; write [{\"word\": \"hello\", "
+        "it holds no list of words, \"words\", \"segments\", \"chunks\" or \"transcription\"; write [{\"word\": \"hello\", "
         "\"start\": 0.1, \"end\": 0.4}]");
     EXPECT_EQ(refusal(R"({"segments": [{"words": [{"start": 1, "end": 2}]}]})"),
               "segments[0].words[0] has no \"word\"; write its text");
@@ -643,7 +643,7 @@ struct Aligned {
 
 TEST(TimedWords, ReadTheTextGridOfAnAligner) {
     for (const Aligned& aligned :
-         testing::present<Aligned>({{"tests/fixtures/speech/two-ways.TextGrid", 8.97220, 23, 9,
+         testing::present<Aligned>({{"tests/fixtures/speech/two-ways.TextGrid", 8.97220, 24, 10,
                                      "something 3.212-3.752", "s 'ʌ m θ ɪ ŋ"},
                                     {"../shared/data/speech/acoustic_corpus.TextGrid", 26.72325, 58, 3,
                                      "acoustic 1.46-1.89", "ə k 'u s t ɪ k"}})) {
@@ -663,16 +663,31 @@ TEST(TimedWords, AreThoseOfTheTranscript) {
     const TimedWords timed = read_timed_words(test_file("tests/fixtures/speech/two-ways.TextGrid"), 8.97220);
     const Speech recorded{.words = timed.words, .phonemes = timed.phonemes};
     Speech beginning = recorded;
-    beginning.words.resize(6);
-    EXPECT_EQ(align(testing::script("There two ways to do it"), beginning).words.size(), 6u);
-    EXPECT_THAT(refusal_of([&] { align(testing::script("There two ways to do it, uh, either"), recorded); }),
-                HasSubstr("the text says \"uh\" (word 7) and the recording says \"either\" (word 7)"));
+    beginning.words.resize(7);
+    EXPECT_EQ(align(testing::script("There are two ways to do it"), beginning).words.size(), 7u);
+    EXPECT_THAT(
+        refusal_of([&] { align(testing::script("There are two ways to do it, uh, either"), recorded); }),
+        HasSubstr("the text says \"uh\" (word 8) and the recording says \"either\" (word 8)"));
+}
+
+TEST(TimedWords, AreNoSilencesAndNoEvents) {
+    const testing::TemporaryFolder folder;
+    write_text(
+        folder / "w.ctm",
+        "r 1 0.0 0.1 <eps>\nr 1 0.1 0.2 {SL}\nr 1 0.3 0.2 Well\nr 1 0.5 0.1 !SIL\nr 1 0.6 0.2 <laugh>\n"
+        "r 1 0.8 0.1 (laughs)\nr 1 0.9 0.1 [noise]\nr 1 1.0 0.1 xxx\nr 1 1.1 0.2 (thanks\nr 1 1.3 0.2 so)\n");
+    const TimedWords timed = read_timed_words(folder / "w.ctm", 2);
+    EXPECT_THAT(with_times(timed.words), ElementsAre("Well 0.3-0.5", "thanks 1.1-1.3", "so 1.3-1.5"));
+    EXPECT_THAT(timed.notes,
+                ElementsAre(HasSubstr(
+                    "w.ctm: 4 labels name sounds that are no words, and were left out; the first is "
+                    "line 5: \"<laugh>\"")));
 }
 
 TEST(TimedWords, ReadTheLabelsOfHts) {
     const TimedWords timed = read_timed_words(test_file("tests/fixtures/speech/two-ways_phone.lab"), 9);
-    ASSERT_EQ(timed.phonemes.size(), 91u);
-    EXPECT_EQ(with_times(timed.phonemes)[1], "ð 0.3-0.429");
+    ASSERT_EQ(timed.phonemes.size(), 93u);
+    EXPECT_EQ(with_times(timed.phonemes)[1], "ð 0.3-0.38");
     for (const std::string& file : testing::present({"../shared/data/speech/arctic_a0009_phone.lab"})) {
         const TimedWords arctic = read_timed_words(test_file(file), 4);
         ASSERT_EQ(arctic.phonemes.size(), 40u);
