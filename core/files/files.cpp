@@ -4,6 +4,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include <sys/stat.h>
 
 #include "core/error.h"
 #include "core/files/byte_order_mark.h"
@@ -17,6 +22,34 @@ namespace {
 fs::path partial_name(const fs::path& final_path) {
     return final_path.parent_path() / format(".{}.partial", final_path.filename().string());
 }
+
+// What this process makes under hidden names, so that it knows its own from those of another run.
+class OwnPartials {
+  public:
+    static void add(const PendingOutput& output) {
+        const std::scoped_lock lock(mutex_);
+        identities_[&output] = identity_of(output.path());
+    }
+
+    // Whether what lies there now is what was added.
+    static bool take(const PendingOutput& output) {
+        const std::scoped_lock lock(mutex_);
+        const auto node = identities_.extract(&output);
+        return !node.empty() && node.mapped() == identity_of(output.path());
+    }
+
+  private:
+    using Identity = std::pair<dev_t, ino_t>;
+
+    static Identity identity_of(const fs::path& path) {
+        struct stat status {};
+        if (::stat(path.c_str(), &status) != 0) return {};
+        return {status.st_dev, status.st_ino};
+    }
+
+    static inline std::mutex mutex_;
+    static inline std::map<const PendingOutput*, Identity> identities_;
+};
 
 // "clips/" is the folder "clips", and not what lies in it.
 fs::path without_last_slash(fs::path path) {
@@ -104,17 +137,26 @@ PendingOutput::PendingOutput(fs::path final_path, Kind kind)
         throw Error(format("{}: cannot be written ({}); check that the folder exists and is writable",
                            final_.string(), problem ? problem.message() : std::strerror(errno)));
     }
+    OwnPartials::add(*this);
 }
 
 PendingOutput::~PendingOutput() {
     std::error_code ignored;
-    if (!committed_) fs::remove_all(partial_, ignored);
+    if (!committed_ && OwnPartials::take(*this)) fs::remove_all(partial_, ignored);
 }
 
 void PendingOutput::commit() {
+    if (!OwnPartials::take(*this)) {
+        throw Error(
+            format("{}: another run began to write it meanwhile; let each run write a name of its own",
+                   final_.string()));
+    }
     std::error_code problem;
     fs::rename(partial_, final_, problem);
-    if (problem) throw Error(format("{}: cannot be put in place ({})", final_.string(), problem.message()));
+    if (problem) {
+        OwnPartials::add(*this);
+        throw Error(format("{}: cannot be put in place ({})", final_.string(), problem.message()));
+    }
     committed_ = true;
 }
 

@@ -1,7 +1,10 @@
 #include "core/files/files.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+
+#include <optional>
 
 #include "core/text.h"
 #include "tests/support/support.h"
@@ -9,6 +12,7 @@
 namespace chironomia {
 namespace {
 
+using ::testing::HasSubstr;
 using testing::refusal_of;
 using testing::TemporaryFolder;
 
@@ -55,6 +59,22 @@ TEST(PendingOutput, ShowsNothingUntilItIsCommitted) {
         output.commit();
     }
     EXPECT_TRUE(std::filesystem::exists(folder / "deep/clip.mp4"));
+}
+
+// As of two runs: what began later is whole, and the other says so and removes nothing.
+TEST(PendingOutput, IsOfTheRunThatBeganLast) {
+    for (const auto kind : {PendingOutput::Kind::file, PendingOutput::Kind::folder}) {
+        const TemporaryFolder folder;
+        std::optional<PendingOutput> first, second;
+        first.emplace(folder / "out", kind);
+        second.emplace(folder / "out", kind);
+        EXPECT_THAT(
+            refusal_of([&] { first->commit(); }),
+            HasSubstr("out: another run began to write it meanwhile; let each run write a name of its own"));
+        first.reset();
+        second->commit();
+        EXPECT_TRUE(std::filesystem::exists(folder / "out"));
+    }
 }
 
 TEST(PendingOutput, LeavesNothingWhenItIsAbandoned) {
