@@ -312,9 +312,23 @@ Json completed(const Json& file, Json otherwise) {
     return otherwise;
 }
 
+// A camera is placed by its eye and target, or so that it frames the figure.
+void refuse_two_ways(const SceneFile& file) {
+    if (!file.json.is_object() || !file.json.contains("camera")) return;
+    const Json& camera = file.json["camera"];
+    if (!camera.is_object() || !camera.contains("eye")) return;
+    for (const char* key : {"framing", "yaw_deg", "pitch_deg", "zoom"}) {
+        if (camera.contains(key))
+            throw Error(format("{}: camera.{}: changes nothing beside eye and target; leave it or them out",
+                               file.name, key));
+    }
+}
+
 SceneFile read_scene(const std::string& name_or_file) {
     const fs::path file = scene_file(name_or_file);
-    return {.name = file.string(), .json = completed(read_json(file), read_json(bundled_file("upper")))};
+    const SceneFile own{.name = file.string(), .json = read_json(file)};
+    refuse_two_ways(own);
+    return {.name = own.name, .json = completed(own.json, read_json(bundled_file("upper")))};
 }
 
 // The views of several pictures beside each other, one figure in each.

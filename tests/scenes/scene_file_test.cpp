@@ -137,6 +137,8 @@ TEST(MakeScene, RefusesWhatAFileMustNotHold) {
     EXPECT_EQ(
         refusal_of_text(R"({"camera": {"eye": [0, 9, 0], "target": [0, 0, 0]}})"),
         "camera.eye: lies straight above or below the target, up has no meaning there; move it sideways");
+    EXPECT_EQ(refusal_of_text(R"({"camera": {"eye": [0, 1, 2], "target": [0, 1, 0], "zoom": 0.9}})"),
+              "camera.zoom: changes nothing beside eye and target; leave it or them out");
     EXPECT_EQ(refusal_of_text(R"({"backdrop": {"top": "blue"}})"),
               "backdrop.top: \"blue\" is no colour; write it as \"#rrggbb\"");
     EXPECT_EQ(refusal_of_text(R"({"floor": {"visible": "yes"}})"),
