@@ -90,7 +90,8 @@ FileKind kind_of_json(const fs::path& file) {
     if (format != json.end() && format->is_string() &&
         format->get_ref<const std::string&>().starts_with("chironomia checkpoint"))
         return FileKind::model;
-    return json.is_object() && json.contains("asset") ? FileKind::avatar : FileKind::motion;
+    const bool is_figure = json.is_object() && json.contains("asset") && !is_skeleton_alone(file);
+    return is_figure ? FileKind::avatar : FileKind::motion;
 }
 
 bool is_readable_file(const fs::path& file) {
