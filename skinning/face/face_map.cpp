@@ -12,6 +12,7 @@ namespace {
 
 constexpr float kHint = 0.25f;                     // a unit whose shapes are all weaker is not shown
 constexpr float kUsualLook = float(30 * kDegree);  // of a look shape that cannot be measured
+constexpr float kStill = 1e-6f;                    // of a vertex that a morph leaves where it is [m]
 constexpr float kOnEye = 0.5f;                     // of the weight of a vertex of an eyeball
 
 struct NamedShape {
@@ -20,12 +21,36 @@ struct NamedShape {
     std::vector<MorphShare> morphs;
 };
 
+// Which morphs (M) move anything: files list morphs of meshes that others show.
+std::vector<bool> moving_morphs(const Avatar& avatar) {
+    std::vector<bool> moves(avatar.morph_names.size());
+    for (const Surface& surface : avatar.surfaces) {
+        for (size_t m = 0; m < surface.morphs.size(); ++m) {
+            const auto still = [](const Vec3& move) { return length(move) < kStill; };
+            if (!std::ranges::all_of(surface.morphs[m].moves, still))
+                moves[static_cast<size_t>(surface.first_morph_weight) + m] = true;
+        }
+    }
+    return moves;
+}
+
+// "eyeUpperClose_25" on the way to "eyeUpperClose".
+bool is_in_between(const std::string& name, const std::vector<std::string>& names) {
+    const size_t sign = name.rfind('_');
+    if (sign == std::string::npos || name.size() - sign > 3) return false;
+    const bool is_number = std::all_of(name.begin() + std::ptrdiff_t(sign) + 1, name.end(),
+                                       [](char letter) { return letter >= '0' && letter <= '9'; });
+    return is_number && std::ranges::find(names, name.substr(0, sign)) != names.end();
+}
+
 // Morphs of one name in several meshes are one shape.
 std::vector<NamedShape> shapes_of(const Avatar& avatar) {
     std::vector<NamedShape> shapes;
     std::map<std::string, size_t> place_of;
+    const std::vector<bool> moves = moving_morphs(avatar);
     for (size_t m = 0; m < avatar.morph_names.size(); ++m) {
         const std::string& name = avatar.morph_names[m];
+        if (!moves[m] || is_in_between(name, avatar.morph_names)) continue;
         const auto [place, is_new] = place_of.emplace(name, shapes.size());
         if (is_new) shapes.push_back({.name = name, .meaning = read_shape_name(name), .morphs = {}});
         shapes[place->second].morphs.push_back({.morph = static_cast<int>(m)});
@@ -34,8 +59,9 @@ std::vector<NamedShape> shapes_of(const Avatar& avatar) {
         NamedShape shape{
             .name = expression.name, .meaning = read_expression_name(expression.name), .morphs = {}};
         for (const ExpressionBind& bind : expression.binds)
-            shape.morphs.push_back({.morph = bind.morph, .weight = bind.weight});
-        shapes.push_back(std::move(shape));
+            if (moves[static_cast<size_t>(bind.morph)])
+                shape.morphs.push_back({.morph = bind.morph, .weight = bind.weight});
+        if (!shape.morphs.empty()) shapes.push_back(std::move(shape));
     }
     std::erase_if(shapes, [](const NamedShape& shape) { return !shape.meaning.is_known(); });
     return shapes;
