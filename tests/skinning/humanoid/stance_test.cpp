@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/text.h"
+
 #include "skinning/gltf/gltf.h"
 #include "skinning/gltf/gltf_write.h"
 #include "skinning/skin.h"
