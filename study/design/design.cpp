@@ -111,19 +111,15 @@ class SheetDraw {
         shown_ = count_shown(shape, block);
         clips_ = count_clips(shape, block);
         pages_ = clips_ * shape.groups.size();
-        name_of_row_ = shuffled(shown_, seed, kRowStream);
+        name_of_row_ = draw_names();
         times_shown_.assign(pages_, 0);
     }
 
     Sheet draw(std::size_t number, std::size_t count) {
         const std::size_t ways = ways_of(shape_);
         const std::size_t at = number / ways;
-        const std::size_t taken = (count + ways - 1) / ways;
-        const std::size_t rows = count_rows(shown_);
-        // Spreads the rows evenly over the design; after its last row the first comes again.
-        const std::size_t row = taken < rows ? at * rows / taken : at % rows;
         Sheet sheet{.block = block_, .pages = {}};
-        for (const std::size_t position : williams_row(shown_, row)) {
+        for (const std::size_t position : williams_row(shown_, row_of(number, count))) {
             const std::size_t index = at * shown_ + name_of_row_[position];
             const std::size_t page = index % pages_;
             // Where the sequence begins again, the sides go on taking turns.
@@ -135,6 +131,51 @@ class SheetDraw {
     }
 
   private:
+    // Which page of a sheet each number of a row stands for. Numbers that go with one page in a round of samples
+    // (row_of_sample()) keep a remainder in common.
+    std::vector<std::size_t> draw_names() const {
+        const std::size_t common = std::gcd(pages_, shown_), each = shown_ / common;
+        const std::vector<std::size_t> remainders = shuffled(common, seed_, kRowStream);
+        std::vector<std::size_t> names(shown_);
+        for (std::size_t number = 0; number < shown_; ++number) {
+            const std::size_t remainder = remainders[number % common];
+            const auto among = shuffled(each, seed_, kRowStream + 1000 * (remainder + 1));
+            names[number] = remainder + common * among[number / common];
+        }
+        return names;
+    }
+
+    // Which row of Williams' design orders sheet `number` of `count`.
+    std::size_t row_of(std::size_t number, std::size_t count) const {
+        const std::size_t ways = ways_of(shape_);
+        const std::size_t at = number / ways, taken = (count + ways - 1) / ways;
+        if (shown_ < pages_) return row_of_sample(at, number % ways, taken);
+        // Spreads the rows evenly over the design; after its last row the first comes again.
+        const std::size_t rows = count_rows(shown_);
+        return taken < rows ? at * rows / taken : at % rows;
+    }
+
+    // Samples come in rounds: as many as show every page equally often. With g the common divisor of the numbers of all
+    // pages and of those shown, a page stands in a round at the positions of one remainder modulo g, and a row shifted
+    // by one puts it at those of the next remainder. So g rows, a round each, lead every page once through all
+    // positions. Where sides are mirrored, the two sheets of the same pages take two of these rows.
+    std::size_t row_of_sample(std::size_t at, std::size_t way, std::size_t taken) const {
+        const std::size_t ways = ways_of(shape_), common = std::gcd(pages_, shown_), sheets = pages_ / common;
+        const std::size_t round = at / sheets, rounds = (taken + sheets - 1) / sheets;
+        // The rows go to both sides in the same number. If g is even, the same would come to the same side again.
+        const bool again = common % 2 == 0 && round * ways / common % 2 == 1;
+        const bool turned =
+            round * (shown_ / common) * clips_ % 2 == 1;  // as draw() turns the sides of a round
+        const std::size_t step = round * ways + (again != turned ? ways - 1 - way : way);
+        const std::size_t cycle = step / common;
+        // Of fewer rows than g: as far apart as can be.
+        const std::size_t length = std::min(common, rounds * ways - cycle * common);
+        const std::size_t turn = round / common;
+        const std::size_t shift = (turn * common + step % common * common / length) % shown_;
+        // An odd number of pages also needs the rows backwards.
+        return shown_ % 2 == 0 ? shift : 2 * shift + turn % 2;
+    }
+
     std::vector<std::size_t> order_of(std::size_t page, bool mirrored) {
         const std::size_t places = shape_.groups.front().size();
         std::vector<std::size_t> order(places);

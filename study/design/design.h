@@ -89,7 +89,9 @@ std::size_t full_sheets(const DesignShape& shape);
 // groups), and each group is shown equally often within a sheet: to within one where the numbers of clips and
 // groups have no common divisor, else to within two.
 //
-// Orders: rows of Williams' design, as far apart as their number allows.
+// Orders: rows of Williams' design, as far apart as their number allows. Where a sheet shows some of the pages, each
+// page stands at each position equally often, to within one for each block, over every round of sheets that show every
+// page equally often (and either way round, where sides are mirrored).
 Design draw_design(const DesignShape& shape, std::uint64_t seed);
 
 // How often either of two conditions of the same pages stands further left.

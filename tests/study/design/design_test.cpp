@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -259,6 +260,52 @@ TEST(DrawDesign, LeadsPagesOfSamplesThroughThePositions) {
     shape.clips = 1500;
     shape.pages_per_sheet = 7;
     EXPECT_EQ(full_sheets(shape), 3000u) << "every page is shown";
+}
+
+// Thirty participants who see two of six pages: each page comes ten times, five times first and five times second.
+TEST(DrawDesign, PutsThePagesOfSamplesAtEachPositionEquallyOften) {
+    for (const SideRule sides : {SideRule::per_page, SideRule::mirror}) {
+        const Design design = draw_design(
+            {.clips = 6, .groups = all_pairs(2), .sides = sides, .pages_per_sheet = 2, .sheets = 30}, 7);
+        EXPECT_EQ(count_positions(design).least, 5u);
+        EXPECT_EQ(count_positions(design).most, 5u);
+    }
+}
+
+// A round: as many sheets as show every page equally often, and either way round where sides are mirrored. After as
+// many rounds as it takes to lead a page through all positions, no position goes with a side.
+TEST(DrawDesign, PutsThePagesOfSamplesAtEachPositionToWithinOneInEveryRound) {
+    for (const SideRule sides : {SideRule::per_page, SideRule::mirror}) {
+        for (const auto& [clips, conditions, each] : {std::array<std::size_t, 3>{6, 2, 2},
+                                                      {4, 2, 2},
+                                                      {3, 2, 2},
+                                                      {6, 2, 4},
+                                                      {5, 4, 4},
+                                                      {3, 3, 3},
+                                                      {12, 2, 9},
+                                                      {16, 2, 4},
+                                                      {5, 3, 5},
+                                                      {14, 2, 12}}) {
+            DesignShape shape{
+                .clips = clips, .groups = all_pairs(conditions), .sides = sides, .pages_per_sheet = each};
+            const std::size_t ways = sides == SideRule::mirror ? 2 : 1;
+            const std::size_t pages = clips * shape.groups.size(), turns = std::gcd(pages, each);
+            for (std::size_t rounds = 1; rounds <= 2 * turns + 1; ++rounds) {
+                shape.sheets = rounds * ways * pages / turns;
+                const Design design = draw_design(shape, rounds);
+                const CountRange positions = count_positions(design);
+                EXPECT_LE(positions.most - positions.least, 1u) << pages << " " << each << " " << rounds;
+                if (rounds % turns != 0) continue;
+                std::map<std::array<std::size_t, 3>, std::size_t> counts;
+                for (const Sheet& sheet : design.sheets) {
+                    for (std::size_t at = 0; at < each; ++at)
+                        ++counts[{sheet.pages[at].page, at, sheet.pages[at].order.front()}];
+                }
+                EXPECT_EQ(counts.size(), pages * each * ways) << pages << " " << each << " " << rounds;
+                for (const auto& [of, count] : counts) EXPECT_EQ(count, rounds / turns);
+            }
+        }
+    }
 }
 
 TEST(DrawDesign, StopsAtTheMostSheetsUnlessMoreAreAskedFor) {
