@@ -97,6 +97,15 @@ std::optional<Layout> flat_layout(const NumpyArray& array, size_t frames, size_t
     return fitting[0];
 }
 
+// As many numbers a frame as ARKit has coefficients of a face, all of them shares. Points of a body and a face, which
+// are as many, lie around its neck or in a picture.
+bool are_weights_of_arkit(const NumpyArray& array) {
+    constexpr double kRounding = 0.01;
+    return array.shape.size() == 2 && array.shape[1] == 52 && !array.numbers.empty() &&
+           std::ranges::all_of(array.numbers,
+                               [](double number) { return number >= -kRounding && number <= 1 + kRounding; });
+}
+
 std::optional<Layout> layout_of(const NumpyArray& array, size_t names) {
     if (array.numbers.empty()) return std::nullopt;
     const std::vector<size_t> shape = squeezed(array.shape);
@@ -146,6 +155,11 @@ std::string remedy_without_points(const std::vector<NumpyArray>& arrays) {
                 "so it is not read; save the numbers in it as arrays, by numpy.savez",
                 describe(array));
         }
+        if (are_weights_of_arkit(array)) {
+            return "52 numbers a frame from 0 to 1 are the weights of ARKit's blendshapes, in an order that an array "
+                   "does not say; save them as a .csv whose first line is time and their names (jawOpen, ...), or as "
+                   ".json with \"names\" and \"frames\"; if they are 26 points of a picture, save them in pixels";
+        }
         if (array.shape.size() != 2) continue;
         if (array.shape[1] == 263 || array.shape[1] == 251) {
             return format(
@@ -167,7 +181,7 @@ const NumpyArray& choose_array(const std::vector<NumpyArray>& arrays, size_t nam
                                const std::string& where) {
     std::vector<const NumpyArray*> fitting, inside, usual;
     for (const NumpyArray& array : arrays) {
-        if (layout_of(array, names))
+        if (layout_of(array, names) && !are_weights_of_arkit(array))
             (has_one_person_inside(array.shape) ? inside : fitting).push_back(&array);
     }
     if (fitting.empty()) fitting = inside;

@@ -15,7 +15,8 @@ namespace chironomia {
 // the layout; further leading sides of 1 do not count, nor the 1 of (T, 1, K, 3). In a picture (T, K, 2), or the rows
 // that PATS and the models that learn from it use, x of all points before y of them: (T, 22) or (T, 2, 11) for a body
 // of 11 points, (T, 104) of 52, (T, 30) and (T, 140) for a face of 15 or 70 (skinning/body/keypoint_layout.h), (T, 52)
-// and (T, 244) for a body with the face behind it, which may also be two arrays `pose` and `face`. Beside it the .npz
+// and (T, 244) for a body with the face behind it, which may also be two arrays `pose` and `face`; (T, 52) from 0 to 1
+// are none, but weights of ARKit. Beside it the .npz
 // may hold `fps` or `frame_rate`, `names`, and `confidence` of shape (T, K). Among several arrays of that shape the one
 // under a usual name is taken. Throws Error if no array or more than one fits, naming all of them with their shapes.
 KeypointData keypoints_of_arrays(const std::vector<NumpyArray>& arrays, const std::string& where);

@@ -887,6 +887,62 @@ TEST(KeypointFile, RefusesArraysThatAreAmbiguous) {
                 HasSubstr("2 points without names; known by their number are MediaPipe 33"));
 }
 
+// As scripts/demo.py of TalkSHOW writes it: jaw and eyes, the whole body in the axes of a camera, where y is down, the
+// legs of somebody who sits, and the joints above.
+TEST(KeypointFile, ReadsTheTurnsOfTalkShow) {
+    const testing::TemporaryFolder folder;
+    for (const std::size_t width : {165, 265}) {
+        std::vector<double> numbers(3 * width);
+        for (std::size_t t = 0; t < 3; ++t) {
+            double* row = numbers.data() + t * width;
+            const auto set = [&](std::size_t column, const Vec3& turn) {
+                for (int i = 0; i < 3; ++i) row[column + std::size_t(i)] = turn[i];
+            };
+            set(0, {0.2f, 0, 0});                        // jaw
+            set(9, {3.0747f, -0.0158f, -0.0152f});       // the whole body
+            set(12, {-1.1827f, 0.2387f, 0.1515f});       // left hip
+            set(15, {-1.2605f, -0.316f, -0.1603f});      // right hip
+            set(12 + 3 * 15, {0, 0, -1});                // left shoulder, the arm down
+            set(12 + 3 * 16, {0, 0, 1});                 // right shoulder
+            set(12 + 3 * 18, {0, float(t) * -0.3f, 0});  // right elbow
+            set(75, {0, 0, -0.4f});                      // left index
+            for (std::size_t i = 165; i < width; ++i) row[i] = 5;
+        }
+        testing::write_npy(folder / "talk.npy", {3, width}, numbers);
+        const Motion motion = read_motion(folder / "talk.npy", {.fps = 30});
+        ASSERT_TRUE(motion.joints);
+        EXPECT_THAT(
+            motion.notes,
+            Contains("TalkSHOW: turns of jaw and eyes come first; its camera sees bodies upside down, "
+                     "which are turned over"));
+        EXPECT_THAT(motion.notes, Contains(HasSubstr("SMPL-X: turns of 55 joints")));
+        EXPECT_THAT(motion.notes, Contains(HasSubstr("hands: their turns go from the model's mean hand")));
+        if (width == 265) {
+            EXPECT_THAT(motion.notes, Contains(HasSubstr("expressions: left out")));
+        }
+        const Skeleton& skeleton = motion.joints->skeleton;
+        const auto turn = [&](std::size_t frame, std::string_view name) {
+            for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
+                if (skeleton.joints[j].name == name)
+                    return glm::angle(motion.joints->turns[frame * skeleton.joints.size() + j]);
+            }
+            return -1.0f;
+        };
+        EXPECT_NEAR(turn(0, "jaw"), 0.2f, 1e-4f);
+        EXPECT_NEAR(turn(0, "spine1"), 0, 1e-4f);
+        EXPECT_NEAR(turn(0, "left_shoulder"), 1, 1e-4f);
+        EXPECT_NEAR(turn(2, "right_elbow"), 0.6f, 1e-4f);
+        EXPECT_NEAR(turn(0, "left_index1"), 0.4f, 1e-4f);
+        const LandmarkFrame places = landmarks_of(*motion.joints, {0})[0];
+        const auto height = [&](Landmark landmark) {
+            return places[static_cast<size_t>(landmark)].value().y;
+        };
+        EXPECT_GT(height(Landmark::left_shoulder), height(Landmark::left_hip) + 0.3f) << "upright";
+        EXPECT_THAT(motion.notes, Each(Not(HasSubstr("doubt"))));
+        EXPECT_LT(height(Landmark::left_wrist), height(Landmark::left_shoulder) - 0.2f);
+    }
+}
+
 // Files that the test writes itself.
 class KeypointText : public ::testing::Test {
   protected:

@@ -69,6 +69,27 @@ TEST_F(PictureFile, KnowsTheRowsThatModelsPutOut) {
     EXPECT_EQ(place(array({1, 104}), 0, "left_thumb_1"), Vec2(11, 63));
 }
 
+// As many numbers as a body of 11 points and a face of 15, whose size would make places of them.
+TEST_F(PictureFile, RefusesTheWeightsOfArkit) {
+    std::vector<double> weights(2 * 52);
+    for (size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<double>(i % 11) / 10;
+    write_npy(folder_ / "weights.npy", {2, 52}, weights);
+    EXPECT_THAT(
+        refusal_of(
+            [&] { read_motion(folder_ / "weights.npy", {.fps = 30, .picture = {.size = Vec2(1280, 720)}}); }),
+        HasSubstr(
+            "the arrays are array (2, 52); 52 numbers a frame from 0 to 1 are the weights of ARKit's "
+            "blendshapes, in an order that an array does not say; save them as a .csv whose first line "
+            "is time and their names (jawOpen, ...), or as .json with \"names\" and \"frames\"; if they "
+            "are 26 points of a picture, save them in pixels"));
+    // Points around a neck have numbers below 0.
+    weights[30] = -0.5;
+    write_npy(folder_ / "points.npy", {2, 52}, weights);
+    const Motion points =
+        read_motion(folder_ / "points.npy", {.fps = 30, .picture = {.size = Vec2(1280, 720)}});
+    EXPECT_THAT(points.notes, Contains("picture: PATS 11, by the number of points"));
+}
+
 TEST_F(PictureFile, TakesPointsOfTwoNumbers) {
     const Motion body = array({1, 25, 2});
     EXPECT_EQ(place(body, 0, "left_wrist"), Vec2(14, 15));

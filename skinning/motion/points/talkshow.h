@@ -1,0 +1,17 @@
+// The turns that TalkSHOW puts out (Yi et al., CVPR 2023): those of SMPL-X, in an order of its own.
+#pragma once
+
+#include "skinning/motion/points/npy.h"
+
+namespace chironomia {
+
+// Whether an array has the columns of its scripts/demo.py: (T, 165) turns about axes [rad] of jaw, left eye, right eye,
+// whole body, 21 joints of the body, left and right hand, or (T, 265) with 100 coefficients of the face behind them. In
+// either order the columns 9 to 11 are those of one joint: the whole body, which is upside down in the axes of
+// TalkSHOW's camera, or the lowest joint of the spine, which nobody turns that far.
+bool is_talkshow(const NumpyArray& array);
+
+// The turns in the order of SMPL-X, (T, 165), as motion_of_smpl() reads them: "poses".
+NumpyArray poses_of_talkshow(const NumpyArray& array);
+
+}  // namespace chironomia
