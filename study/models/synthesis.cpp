@@ -19,6 +19,7 @@
 #include "synth/speech/align.h"
 #include "synth/speech/channels.h"
 #include "synth/speech/said_phonemes.h"
+#include "synth/speech/said_stress.h"
 #include "synth/speech/silent_words.h"
 #include "synth/speech/speak.h"
 #include "synth/speech/timed_words.h"
@@ -228,7 +229,7 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Le
                                  .language = language,
                                  .words = std::move(timed.words),
                                  .phonemes = std::move(timed.phonemes)});
-    return with_said_phonemes(std::move(speech), text, notes);
+    return with_said_phonemes(with_said_stress(std::move(speech), text, notes), text, notes);
 }
 
 // Less than one gesture in 10 s is ours: the bundled texts have one in 4 s.

@@ -53,7 +53,7 @@ class Accents {
 };
 
 // The beginning of the vowel under the primary stress [s]; of the secondary one where there is no other.
-// Where the phonemes are not known, a third of the way through the word.
+// Where neither is known (with_said_stress() of synth/speech looks for it), a third of the way through the word.
 double stressed_moment(const Speech& speech, std::size_t word);
 
 }  // namespace chironomia

@@ -218,6 +218,73 @@ TEST_F(Synth, FindsTheStressedVowelsOfWordsWithoutPhonemes) {
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], wanted[i], 0.01) << i;
 }
 
+// A word with the phonemes of an aligner, which are equally long.
+struct AlignedWord {
+    std::string text;
+    double start = 0, end = 0;  // [s]
+    std::vector<std::string> phones;
+};
+
+std::string grid_of(const std::vector<AlignedWord>& words, double duration) {
+    std::string rows, phones;
+    std::size_t count = 0;
+    for (const AlignedWord& word : words) {
+        rows += format("{} {} \"{}\"\n", word.start, word.end, word.text);
+        const double each = (word.end - word.start) / static_cast<double>(word.phones.size());
+        for (std::size_t i = 0; i < word.phones.size(); ++i, ++count) {
+            const double start = word.start + each * static_cast<double>(i);
+            phones += format("{:.3f} {:.3f} \"{}\"\n", start, start + each, word.phones[i]);
+        }
+    }
+    return format(
+        "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n0\n{0}\n<exists>\n2\n"
+        "\"IntervalTier\"\n\"words\"\n0\n{0}\n{1}\n{2}\"IntervalTier\"\n\"phones\"\n0\n{0}\n{3}\n{4}",
+        duration, words.size(), rows, count, phones);
+}
+
+// As the Montreal Forced Aligner writes IPA. A third of these words is nowhere near their stress.
+TEST_F(Synth, FindsTheStressOfPhonemesWithoutMarks) {
+    write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(14 * 16000, 0.1f)});
+    write_text(file("w.TextGrid"),
+               grid_of({{"banana", 1, 1.6, {"b", "ə", "n", "æ", "n", "ə"}},
+                        {"strength", 4, 4.8, {"s", "t", "ɹ", "ɛ", "ŋ", "k", "θ", "s"}},
+                        // Said with two vowels, "ɛvɹi".
+                        {"every", 7, 7.5, {"ɛ", "v", "ə", "ɹ", "i"}},
+                        {"understand", 10, 11, {"ʌ", "n", "d", "ɚ", "s", "t", "æ", "n", "d", "z"}}},
+                       14));
+    std::string script;
+    for (const char* word : {"banana", "strength", "every", "understand"})
+        script +=
+            format("<rheme><emphasis x-pitchaccent=\"Hstar\" weight=\"1\">{}</emphasis></rheme> ", word);
+    const Outcome made =
+        synth({"--speech", file("s.wav"), "--words", file("w.TextGrid"), "--aplm",
+               "<aplm>" + script + "</aplm>", "--speaker", "vigorous", "--score-out", file("s.json")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err,
+                HasSubstr("its file of words marks no stress on 3 words of several vowels: it lies where the "
+                          "voice of \"en-us\" puts it"));
+    std::vector<double> accents;
+    const Json score = read_json(file("s.json"));
+    for (const Json& gesture : score["gestures"]) accents.push_back(gesture["strokes"][0]["accent"]);
+    ASSERT_THAT(accents, SizeIs(4));
+    EXPECT_NEAR(accents[0], 1.3, 0.001);
+    EXPECT_NEAR(accents[1], 4.3, 0.001);
+    EXPECT_NEAR(accents[2], 7, 0.001);
+    EXPECT_NEAR(accents[3], 10.6, 0.001);
+}
+
+TEST_F(Synth, SaysWhyNoVoiceKnowsAStress) {
+    write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(2 * 16000, 0.1f)});
+    write_text(file("w.TextGrid"), grid_of({{"東京", 0.5, 1.5, {"t", "oː", "k", "j", "oː"}}}, 2));
+    const Outcome made =
+        synth({"--speech", file("s.wav"), "--words", file("w.TextGrid"), "--language", "ja"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(
+        made.err,
+        AllOf(HasSubstr("marks no stress on 1 word of several vowels, and no synthetic voice knows it ("),
+              HasSubstr("): strokes on them end at a third of the word")));
+}
+
 TEST_F(Synth, KeepsEachWordOfARecording) {
     write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(2 * 16000, 0.1f)});
     write_text(file("w.csv"), "word,start,end\nhello,0.2,0.5\n\U0001f44d,0.6,0.8\nworld,1,1.5\n");
