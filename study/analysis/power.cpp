@@ -34,12 +34,6 @@ std::size_t share_of(std::size_t answers, std::size_t shares, std::size_t partic
     return answers / shares + (participant % shares < answers % shares ? 1 : 0);
 }
 
-double vote(double felt) {
-    if (std::abs(felt) < kTieBelow) return 0;
-    const double strength = std::abs(felt) >= kClearFrom ? 2 : 1;
-    return felt > 0 ? strength : -strength;
-}
-
 // The scores of all participants for the first condition, and for the second.
 struct Drawn {
     std::vector<double> first;
@@ -55,7 +49,8 @@ Drawn draw_preferences(const PowerDesign& design, std::size_t participants, Rand
         const std::size_t count = share_of(design.answers_each, design.shares, p);
         double sum = 0;
         for (std::size_t i = 0; i < count; ++i)
-            sum += vote(gap + leaning + clips[(p + i) % clips.size()] + logistic_noise(random));
+            sum += steps_felt(gap + leaning + clips[(p + i) % clips.size()] + logistic_noise(random),
+                              design.choices);
         if (count == 0) continue;
         drawn.first.push_back(sum / static_cast<double>(count));
         drawn.second.push_back(0);
@@ -175,6 +170,7 @@ Json to_json(const PowerDesign& design, const PowerResult& result) {
                  {"participants_needed", result.needed ? Json(*result.needed) : Json()},
                  {"at_least", result.at_least},
                  {"at_most", result.at_most ? Json(*result.at_most) : Json()}};
+    if (prefers) json["choices"] = design.choices;
     for (const PowerStep& step : result.steps) {
         json["steps"].push_back({{"participants", step.participants},
                                  {"power", step.power},
@@ -196,12 +192,13 @@ std::string to_text(const PowerDesign& design, const PowerResult& result) {
                                    : format("a difference of {:g} sd between two conditions", design.effect);
     if (!result.needed) return text + format("\n{} needs more than {} participants\n", effect, kMost);
     const std::string most = result.at_most ? std::to_string(*result.at_most) : "more";
-    return text + format(
-                      "\n{} needs {} participants for {:g} % power ({} to {}; {} simulated studies each, {} "
-                      "{} of each "
-                      "participant)\n",
-                      effect, *result.needed, 100 * design.wanted, result.at_least, most, design.runs,
-                      design.answers_each, prefers ? "comparisons" : "scores");
+    const std::string answers =
+        prefers ? format("{} comparisons of each participant with {} answers to choose from",
+                         design.answers_each, design.choices)
+                : format("{} scores of each participant", design.answers_each);
+    return text +
+           format("\n{} needs {} participants for {:g} % power ({} to {}; {} simulated studies each, {})\n",
+                  effect, *result.needed, 100 * design.wanted, result.at_least, most, design.runs, answers);
 }
 
 }  // namespace chironomia::study::analysis

@@ -20,6 +20,7 @@ struct PowerDesign {
                              // answers of a participant are divided among them
     std::size_t clips = 10;
     std::size_t answers_each = 25;  // of a participant: comparisons of two, or scores of one
+    std::size_t choices = 5;        // preferences: how many answers there are to choose from, such as 3 or 7
     double effect = 100;  // preferences: Elo between two conditions; scores: their difference in standard
                           // deviations of an answer
     double participant_sd = 0.3;  // of what one participant thinks of the difference: natural log odds, or
@@ -46,12 +47,12 @@ struct PowerResult {
 };
 
 // Preferences: Bradley-Terry with ties. The first is preferred where the gap, what the participant and the
-// clip add and logistic noise are above 0; within 0.4 of 0 both are equal, beyond 1.5 the answer is clear. A
-// participant's score is the mean of their votes on the pair, ties 0, clear answers double. Scores: normal,
-// of standard deviation 1 for all participants and clips together. A participant's score is the mean over the
-// clips that they rated of either condition. The test is the t of the participants' (differences of) scores,
-// in which participants are drawn and clips are not: what clips add sums to 0. The pages of a participant are
-// shared out evenly among all pairs, or conditions. Throws Error if a participant has no answer on the pair,
+// clip add and logistic noise are above 0; the answers are those of a rehearsal (steps_felt()). A participant's
+// score is the mean of their votes on the pair, each the steps that it is from equal, as the analysis has it.
+// Scores: normal, of standard deviation 1 for all participants and clips together. A participant's score is the
+// mean over the clips that they rated of either condition. The test is the t of the participants' (differences of)
+// scores, in which participants are drawn and clips are not: what clips add sums to 0. The pages of a participant
+// are shared out evenly among all pairs, or conditions. Throws Error if a participant has no answer on the pair,
 // or the effect is 0.
 PowerResult plan_power(const PowerDesign& design);
 

@@ -43,12 +43,11 @@ double feeling(SimulatedRater& rater, const KeyPage& page) {
            logistic_noise(rater.random);
 }
 
-// One of so many answers: 1 is the first place clearly. Without an answer in the middle nothing is equal.
-int preference_of(double felt, int answers) {
-    const int half = answers / 2;
-    if (answers % 2 == 1 && std::abs(felt) < kTieBelow) return half + 1;
-    const int inner = std::abs(felt) >= kClearFrom ? 0 : std::min(1, half - 1);
-    return felt > 0 ? 1 + inner : answers - inner;
+// The answer so many steps from equal: 1 is the first place as clearly as can be.
+int preference_of(double felt, std::size_t answers) {
+    const int half = static_cast<int>(answers / 2), steps = steps_felt(felt, answers);
+    if (answers % 2 == 1 || steps > 0) return half + 1 - steps;
+    return half - steps;
 }
 
 int score_at(SimulatedRater& rater, const KeyPage& page, std::size_t place, const ScoreRange& range) {
@@ -109,7 +108,7 @@ std::vector<std::size_t> shuffled(SimulatedRater& rater, std::size_t count) {
 Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& page) {
     switch (question.kind) {
         case QuestionKind::preference:
-            return preference_of(feeling(rater, page), static_cast<int>(question.answers.size()));
+            return preference_of(feeling(rater, page), question.answers.size());
         case QuestionKind::rating:
         case QuestionKind::slider:
             return rating_of(rater, question, page, range_of_scores(question));

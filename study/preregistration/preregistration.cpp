@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <set>
 
 #include "core/hash.h"
@@ -406,6 +407,15 @@ Json to_json(const PreregistrationItem& item) {
             {"missing", item.missing.empty() ? Json(nullptr) : Json(item.missing)}};
 }
 
+// Of the preferences that the plan asks for: those with the fewest answers need the most participants.
+std::size_t fewest_choices(const Plan& plan) {
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (const Question& question : plan.questions) {
+        if (question.kind == QuestionKind::preference) fewest = std::min(fewest, question.answers.size());
+    }
+    return fewest;
+}
+
 }  // namespace
 
 analysis::PowerDesign power_design(const Plan& plan, const Composition& all, std::optional<double> effect,
@@ -416,6 +426,7 @@ analysis::PowerDesign power_design(const Plan& plan, const Composition& all, std
     if (asks(plan, QuestionKind::preference)) {
         design.shares = plan.groups.size();
         design.effect = wanted.value_or(kUsualElo);
+        design.choices = fewest_choices(plan);
     } else {
         design.kind = analysis::AnswerKind::scores;
         design.shares = plan.conditions.size() - (plan.reference ? 1 : 0);

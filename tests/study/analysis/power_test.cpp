@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/support.h"
 
 namespace chironomia::study::analysis {
@@ -31,6 +33,33 @@ TEST(PlanPower, FindsTheTextbookNumberForAPairedT) {
         EXPECT_GE(step.power_95.high, step.power);
     }
     EXPECT_THAT(to_text(design, result), HasSubstr("a difference of 1 sd between two conditions needs"));
+}
+
+// One answer each, of raters and clips that do not differ: the mean and the standard deviation of its steps from equal
+// follow from the logistic distribution, and the number from them as in the textbook.
+TEST(PlanPower, CountsTheStepsOfAsManyAnswersAsThereAre) {
+    const double gap = 0.5;  // five of eight prefer the first
+    const auto at_least = [gap](double felt) { return 1 / (1 + std::exp(felt - gap)); };
+    for (const std::size_t choices : {2, 3, 5, 7, 9}) {
+        double mean = 0, square = 0;
+        for (int step = 1; step <= static_cast<int>(choices / 2); ++step) {
+            const double from = step > 1 ? 0.4 + 1.1 * (step - 1) : choices % 2 == 1 ? 0.4 : 0;
+            const double first = at_least(from), second = 1 - at_least(-from);
+            mean += first - second;
+            square += (2 * step - 1) * (first + second);
+        }
+        const double textbook = 7.85 * (square - mean * mean) / (mean * mean) + 2;
+        const PowerDesign design{.clips = 1,
+                                 .answers_each = 1,
+                                 .choices = choices,
+                                 .effect = 400 * gap / std::log(10.0),
+                                 .participant_sd = 0,
+                                 .clip_sd = 0,
+                                 .runs = 600};
+        const PowerResult result = plan_power(design);
+        EXPECT_NEAR(static_cast<double>(*result.needed) / textbook, 1, 0.08) << choices;
+        EXPECT_EQ(to_json(design, result)["choices"], choices);
+    }
 }
 
 TEST(PlanPower, SmallerEffectsAndMoreConditionsNeedMore) {

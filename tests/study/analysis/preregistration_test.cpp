@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "core/files/files.h"
@@ -90,6 +91,33 @@ TEST_F(Preregistered, SaysWhatThePlanDoesNotSayInsteadOfInventingIt) {
     EXPECT_THAT(page(),
                 HasSubstr("<p class=\"missing\">The plan does not say it: \"participants\" is missing.</p>"));
     EXPECT_EQ(item("Study design")["missing"], nullptr);
+}
+
+// More answers tell more of a rater. Of several questions the one with the fewest counts.
+TEST_F(Preregistered, FindsThePowerOfAsManyAnswersAsThePlanHas) {
+    Json plan = sample_plan();
+    const auto needed = [&](std::vector<std::size_t> counts) {
+        plan["questions"] = Json::array();
+        for (const std::size_t count : counts) {
+            plan["questions"].push_back({{"id", format("of{}", count)},
+                                         {"kind", "preference"},
+                                         {"text", "Which?"},
+                                         {"answers", Json::array()}});
+            for (std::size_t i = 0; i < count; ++i)
+                plan["questions"].back()["answers"].push_back(format("answer {}", i));
+        }
+        const Outcome outcome = preregister(plan, {"--power", "--effect", "100"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const std::size_t fewest = *std::min_element(counts.begin(), counts.end());
+        EXPECT_THAT(outcome.out,
+                    HasSubstr(format("of each participant with {} answers to choose from)", fewest)));
+        const Json power = data()["power"];
+        EXPECT_EQ(power["choices"], fewest);
+        return power["participants_needed"].get<std::size_t>();
+    };
+    const std::size_t of_three = needed({3}), of_seven = needed({7});
+    EXPECT_LT(of_seven, of_three);
+    EXPECT_EQ(needed({7, 3}), of_three);
 }
 
 TEST_F(Preregistered, SaysWhatThePlanSays) {

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
 
+#include "core/text.h"
 #include "study/analysis/answers.h"
 #include "study/analysis/exclusion.h"
 #include "tests/study/analysis/sample_study.h"
@@ -50,6 +52,35 @@ TEST(RehearseStudy, RatersDifferByTheSpread) {
     };
     EXPECT_GE(of_one_mind(10), 25);
     EXPECT_LE(of_one_mind(0), 10);
+}
+
+// Of raters without opinion each answer has the share of the logistic distribution between its thresholds, which lie at
+// 0.4, 1.5, 2.6, ...; of two answers at 0.
+TEST(RehearseStudy, PreferencesUseAllTheirAnswersHoweverManyThereAre) {
+    const TemporaryFolder folder;
+    for (const std::size_t answers : {2, 3, 5, 7, 9}) {
+        SampleStudy study{.checks = 0};
+        study.questions[0]["answers"] = Json::array();
+        for (std::size_t i = 0; i < answers; ++i)
+            study.questions[0]["answers"].push_back(format("answer {}", i));
+        write_sample_study(study, folder.path());
+        write_json(folder / "a.json",
+                   rehearse_study({.study = folder.path(), .participants = 400, .spread = 0, .seed = 1}));
+        const StudyKey key = read_study_key(folder / "private/key.json");
+        const Dataset data = join_answers(key, read_study_pages(folder / "public/pages.json"),
+                                          read_answers({folder / "a.json"}, key));
+        std::map<int, double> shares;  // by the steps from equal that the analysis counts
+        for (const Preference& each : data.preferences) shares[each.strength] += 1.0 / (400 * 6);
+        const auto below = [](double felt) { return 1 / (1 + std::exp(-felt)); };
+        const int most = static_cast<int>(answers / 2);
+        for (int step = 1; step <= most; ++step) {
+            const double from = step > 1 ? 0.4 + 1.1 * (step - 1) : answers % 2 == 1 ? 0.4 : 0;
+            const double share = (step == most ? 1 : below(0.4 + 1.1 * step)) - below(from);
+            for (const int side : {1, -1})
+                EXPECT_NEAR(shares[side * step], share, 0.03) << answers << " " << step;
+        }
+        EXPECT_NEAR(shares[0], answers % 2 == 1 ? 2 * below(0.4) - 1 : 0, 0.03) << answers;
+    }
 }
 
 // Both items say that ours is better, of every video of a page, though one of them by low values.
