@@ -6,9 +6,10 @@
 #include <fstream>
 #include <map>
 #include <mutex>
-#include <utility>
 
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "core/error.h"
 #include "core/files/byte_order_mark.h"
@@ -23,32 +24,30 @@ fs::path partial_name(const fs::path& final_path) {
     return final_path.parent_path() / format(".{}.partial", final_path.filename().string());
 }
 
-// What this process makes under hidden names, so that it knows its own from those of another run.
+// What this process makes under hidden names, so that it knows its own from those of another run. Each is kept open, as
+// the system would give its number to the next file otherwise.
 class OwnPartials {
   public:
     static void add(const PendingOutput& output) {
         const std::scoped_lock lock(mutex_);
-        identities_[&output] = identity_of(output.path());
+        open_[&output] = ::open(output.path().c_str(), O_PATH | O_CLOEXEC);
     }
 
     // Whether what lies there now is what was added.
     static bool take(const PendingOutput& output) {
         const std::scoped_lock lock(mutex_);
-        const auto node = identities_.extract(&output);
-        return !node.empty() && node.mapped() == identity_of(output.path());
+        const auto node = open_.extract(&output);
+        if (node.empty() || node.mapped() < 0) return false;
+        struct stat own {
+        }, there{};
+        const bool known = ::fstat(node.mapped(), &own) == 0 && ::stat(output.path().c_str(), &there) == 0;
+        ::close(node.mapped());
+        return known && own.st_dev == there.st_dev && own.st_ino == there.st_ino;
     }
 
   private:
-    using Identity = std::pair<dev_t, ino_t>;
-
-    static Identity identity_of(const fs::path& path) {
-        struct stat status {};
-        if (::stat(path.c_str(), &status) != 0) return {};
-        return {status.st_dev, status.st_ino};
-    }
-
     static inline std::mutex mutex_;
-    static inline std::map<const PendingOutput*, Identity> identities_;
+    static inline std::map<const PendingOutput*, int> open_;
 };
 
 // "clips/" is the folder "clips", and not what lies in it.

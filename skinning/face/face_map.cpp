@@ -34,13 +34,16 @@ std::vector<bool> moving_morphs(const Avatar& avatar) {
     return moves;
 }
 
-// "eyeUpperClose_25" on the way to "eyeUpperClose".
+// "eyeUpperClose_25_L" on the way to "eyeUpperClose_L".
 bool is_in_between(const std::string& name, const std::vector<std::string>& names) {
-    const size_t sign = name.rfind('_');
-    if (sign == std::string::npos || name.size() - sign > 3) return false;
-    const bool is_number = std::all_of(name.begin() + std::ptrdiff_t(sign) + 1, name.end(),
-                                       [](char letter) { return letter >= '0' && letter <= '9'; });
-    return is_number && std::ranges::find(names, name.substr(0, sign)) != names.end();
+    const auto is_digit = [](char letter) { return letter >= '0' && letter <= '9'; };
+    for (size_t sign = name.find('_'); sign != std::string::npos; sign = name.find('_', sign + 1)) {
+        const auto first = name.begin() + std::ptrdiff_t(sign) + 1, last = std::find(first, name.end(), '_');
+        if (last - first != 2 || !std::all_of(first, last, is_digit)) continue;
+        const std::string whole = name.substr(0, sign) + std::string(last, name.end());
+        if (std::ranges::find(names, whole) != names.end()) return true;
+    }
+    return false;
 }
 
 // Morphs of one name in several meshes are one shape.

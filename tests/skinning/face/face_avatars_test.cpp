@@ -209,6 +209,16 @@ TEST(FaceMap, LeavesOutWhatItCouldOnlyHintAt) {
     EXPECT_THAT(shown_by(map, avatar, {.unit = 25}), IsEmpty());
 }
 
+// As of a VRoid whose jawOpen moves nothing, and of Snap's lids, whose in-betweens lie on the way.
+TEST(FaceMap, TakesMorphsThatMoveSomethingAndTheWhole) {
+    Avatar avatar = testing::faced_avatar(
+        {"jawOpen", "viseme_aa", "ai_eyeUpperClose_50_L", "ai_eyeUpperClose_L", "ai_eyeLowerClose_R"});
+    for (Vec3& move : avatar.surfaces.at(0).morphs.at(0).moves) move = Vec3(0);
+    const FaceMap map = map_face(avatar);
+    EXPECT_THAT(shown_by(map, avatar, {.unit = 26}), ElementsAre("viseme_aa"));
+    EXPECT_THAT(shown_by(map, avatar, {.unit = 45}), ElementsAre("ai_eyeUpperClose_L", "ai_eyeLowerClose_R"));
+}
+
 TEST(FaceMap, AJawThatGoesSidewaysNeedsASide) {
     const Avatar avatar = testing::faced_avatar({"jawLeft", "jawRight", "AU30"});
     EXPECT_THAT(shown_by(map_face(avatar), avatar, {.unit = 30}), ElementsAre("jawLeft", "jawRight"));
