@@ -17,8 +17,8 @@ namespace {
 constexpr double kCoefficientToIntensity = 5;
 constexpr float kGazeSideways = glm::radians(45.0f);  // of an eyeLook coefficient of 1
 constexpr float kGazeUp = glm::radians(30.0f);
-constexpr double kMostAngle = 3.2;  // [rad]; what is larger are degrees
-constexpr size_t kLeastCoefficients = 3;
+constexpr double kMostAngle = 3.2;                // [rad]; what is larger are degrees
+constexpr std::ptrdiff_t kLeastCoefficients = 3;  // of a table that holds other columns, too
 
 // A coefficient and the channel that shows it; unit 0: no channel does by itself.
 struct Coefficient {
@@ -343,9 +343,10 @@ class ArkitReader {
 }  // namespace
 
 bool looks_like_arkit(const std::vector<std::string>& columns) {
-    return std::count_if(columns.begin(), columns.end(), [](const std::string& column) {
-               return coefficient_named(column) != nullptr;
-           }) >= static_cast<std::ptrdiff_t>(kLeastCoefficients);
+    const auto coefficients = std::ranges::count_if(
+        columns, [](const std::string& column) { return coefficient_named(column) != nullptr; });
+    return coefficients >= kLeastCoefficients ||
+           (coefficients > 0 && std::ranges::all_of(columns, is_column_of_arkit));
 }
 
 Motion face_of_arkit(std::string_view text, const std::string& where, std::optional<double> fps) {

@@ -501,6 +501,12 @@ constexpr const char* kLooks =
     "eyeLookOutLeft,eyeLookInLeft,eyeLookUpLeft,eyeLookDownLeft,"
     "eyeLookOutRight,eyeLookInRight,eyeLookUpRight,eyeLookDownRight";
 
+TEST_F(ArkitFile, MayHoldTheJawAlone) {
+    const Motion motion = read("time,jawOpen\n0,0\n0.04,0.7\n");
+    ASSERT_TRUE(motion.face);
+    EXPECT_EQ(motion.frames, 2u);
+}
+
 TEST_F(ArkitFile, LooksWhereTheCoefficientsSay) {
     const Motion motion =
         read(format("time,{}\n0,0.4,0,0.5,0,0,0.4,0.5,0\n0.04,0,0.2,0,0.1,0.2,0,0,0.1\n", kLooks));
