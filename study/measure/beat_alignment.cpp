@@ -7,21 +7,48 @@
 namespace chironomia::study {
 namespace {
 
-// The mean over the points that both frames see; infinite where none is.
-std::vector<double> speeds_of(const PointPaths& paths) {
-    std::vector<double> speeds;
-    for (std::size_t t = 0; t + 1 < paths.frames(); ++t) {
-        double sum = 0, count = 0;
-        for (std::size_t j = 0; j < paths.joints; ++j) {
-            if (!paths.has(t, j) || !paths.has(t + 1, j)) continue;
-            sum += static_cast<double>(
-                distance(paths.points[t * paths.joints + j], paths.points[(t + 1) * paths.joints + j]));
-            ++count;
-        }
-        speeds.push_back(count > 0 ? sum / count : std::numeric_limits<double>::infinity());
+// Whether the body is slowest at a step: slower than in the `order` steps before it, and in none behind it slower, over
+// the points that all their frames have.
+class SlowestSteps {
+  public:
+    SlowestSteps(const PointPaths& paths, std::size_t order)
+        : paths_(paths), order_(order), lost_(paths.joints, 0) {
+        for (std::size_t t = 0; t < paths.frames(); ++t)
+            for (std::size_t j = 0; j < paths.joints; ++j)
+                lost_.push_back(lost_[t * paths.joints + j] + (paths.has(t, j) ? 0 : 1));
     }
-    return speeds;
-}
+
+    bool is_slowest(std::size_t step) const {
+        const std::vector<std::size_t> points = points_around(step);
+        if (points.empty()) return false;
+        const double here = speed(step, points);
+        for (std::size_t k = 1; k <= order_; ++k)
+            if (!(here < speed(step - k, points) && here <= speed(step + k, points))) return false;
+        return true;
+    }
+
+  private:
+    std::vector<std::size_t> points_around(std::size_t step) const {
+        const std::size_t first = step - order_, end = step + order_ + 2;
+        std::vector<std::size_t> points;
+        for (std::size_t j = 0; j < paths_.joints; ++j)
+            if (lost_[first * paths_.joints + j] == lost_[end * paths_.joints + j]) points.push_back(j);
+        return points;
+    }
+
+    double speed(std::size_t step, const std::vector<std::size_t>& points) const {
+        double sum = 0;
+        for (const std::size_t j : points) {
+            sum += static_cast<double>(distance(paths_.points[step * paths_.joints + j],
+                                                paths_.points[(step + 1) * paths_.joints + j]));
+        }
+        return sum / static_cast<double>(points.size());
+    }
+
+    const PointPaths& paths_;
+    std::size_t order_;
+    std::vector<std::size_t> lost_;  // (T + 1, J) in how many frames before each one the point is missing
+};
 
 // Mean rise over bands from the row before, scaled to 0 to 1; empty where nothing rises.
 std::vector<double> rises_of(const MelRows& mel) {
@@ -46,15 +73,15 @@ std::vector<double> rises_of(const MelRows& mel) {
 }  // namespace
 
 std::vector<double> kinematic_beats(const PointPaths& paths, const BeatOptions& options) {
-    const std::vector<double> speeds = speeds_of(paths);
-    const auto order = static_cast<std::size_t>(std::max(1L, std::lround(options.around * paths.fps)));
+    const auto frames_in = [&](double seconds) {
+        return static_cast<std::size_t>(std::lround(seconds * paths.fps));
+    };
+    const std::size_t order = std::max<std::size_t>(1, frames_in(options.around));
+    const PointPaths whole = bridge_short_gaps(paths, frames_in(options.bridged));
+    const SlowestSteps steps(whole, order);
     std::vector<double> beats;
-    for (std::size_t t = order; t + order < speeds.size(); ++t) {
-        bool is_slowest = std::isfinite(speeds[t]);
-        for (std::size_t k = 1; k <= order && is_slowest; ++k)
-            is_slowest = speeds[t] < speeds[t - k] && speeds[t] <= speeds[t + k];
-        if (is_slowest) beats.push_back((static_cast<double>(t) + 0.5) / paths.fps);
-    }
+    for (std::size_t t = order; t + order + 1 < whole.frames(); ++t)
+        if (steps.is_slowest(t)) beats.push_back((static_cast<double>(t) + 0.5) / paths.fps);
     return beats;
 }
 

@@ -15,12 +15,14 @@ namespace chironomia::study {
 struct BeatOptions {
     double around = 10.0 / 60;  // [s] a kinematic beat is slowest within so much before and after it
     double sigma = 3.0 / 60;    // [s]
+    double bridged = 0.1;  // [s] a point that is lost for at most so long is put on a curve; ours: 2 sigma
 };
 
-// Times at which the body is slowest [s]: local minima of the mean of |p[t+1] - p[t]| over the points that are seen. A
-// minimum is below all steps within `around` before it and above none behind it; `around` lies within the motion.
+// Times at which the body is slowest [s]: local minima of the mean of |p[t+1] - p[t]| over the points. A minimum is
+// below all steps within `around` before it and above none behind it; `around` lies within the motion.
 // We differ: a step lies in its middle, not at its last frame; of equal steps the first counts, where the program finds
-// none; and the mean stands for the sum, as points may be missing.
+// none; and points may be missing. Short gaps are bridged, and a step is compared with those around it over the points
+// that all their frames have, for the mean falls where the fastest point is lost.
 std::vector<double> kinematic_beats(const PointPaths& paths, const BeatOptions& options = {});
 
 // Times at which sounds begin [s], from natural logarithms of mel magnitudes (T, bands) whose row t lies at

@@ -47,6 +47,28 @@ Vec3 spline_at(const PointPaths& paths, std::size_t joint, std::size_t frame, do
     return from + u * (out + u * (3.0f * way - 2.0f * out - in + u * (out + in - 2.0f * way)));
 }
 
+// Two frames that have a point, which those between them lack.
+struct Gap {
+    std::size_t before = 0, behind = 0;
+};
+
+// Hermite's cubic curve through both; where the frame beside one of them lacks the point, as on the line to the other.
+void bridge_gap(PointPaths& paths, const PointPaths& seen, std::size_t joint, const Gap& gap) {
+    const auto at = [&](std::size_t t) { return seen.points[t * seen.joints + joint]; };
+    const auto steps = static_cast<float>(gap.behind - gap.before);
+    const Vec3 from = at(gap.before), to = at(gap.behind), way = to - from;
+    const bool has_before = gap.before > 0 && seen.has(gap.before - 1, joint);
+    const bool has_after = gap.behind + 1 < seen.frames() && seen.has(gap.behind + 1, joint);
+    const Vec3 out = has_before ? steps * (from - at(gap.before - 1)) : way;
+    const Vec3 in = has_after ? steps * (at(gap.behind + 1) - to) : way;
+    for (std::size_t t = gap.before + 1; t < gap.behind; ++t) {
+        const float u = static_cast<float>(t - gap.before) / steps;
+        paths.points[t * paths.joints + joint] =
+            from + u * (out + u * (3.0f * way - 2.0f * out - in + u * (out + in - 2.0f * way)));
+        paths.missing[t * paths.joints + joint] = false;
+    }
+}
+
 }  // namespace
 
 PointPaths paths_of(const PointPaths& paths, std::span<const std::size_t> joints) {
@@ -81,6 +103,21 @@ PointPaths paths_at(const PointPaths& paths, double fps) {
         }
     }
     return slower;
+}
+
+PointPaths bridge_short_gaps(PointPaths paths, std::size_t frames) {
+    if (paths.missing.empty()) return paths;
+    const PointPaths seen = paths;
+    for (std::size_t joint = 0; joint < seen.joints; ++joint) {
+        std::optional<std::size_t> before;
+        for (std::size_t t = 0; t < seen.frames(); ++t) {
+            if (!seen.has(t, joint)) continue;
+            if (before && t - *before > 1 && t - *before <= frames + 1)
+                bridge_gap(paths, seen, joint, {*before, t});
+            before = t;
+        }
+    }
+    return paths;
 }
 
 Kinematics kinematics(const PointPaths& paths) {

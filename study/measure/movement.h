@@ -30,6 +30,10 @@ PointPaths paths_of(const PointPaths& paths, std::span<const std::size_t> joints
 // splines: straight lines have corners, which are jerk. A point is missing if one of the two frames beside it lacks it.
 PointPaths paths_at(const PointPaths& paths, double fps);
 
+// The paths with each point on a cubic curve where it is missing for at most `frames` frames between two that have it.
+// The curve goes on as the point moved before and behind the gap.
+PointPaths bridge_short_gaps(PointPaths paths, std::size_t frames);
+
 // Means over frames and points. v[t] = (p[t+1] - p[t]) F, a[t] = (v[t+1] - v[t]) F, j[t] = (a[t+1] - a[t]) F
 // and the lengths of these; a difference with a missing point is left out. None where nothing is left.
 struct Kinematics {

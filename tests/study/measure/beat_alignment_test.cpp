@@ -32,6 +32,39 @@ TEST(BeatAlignment, FindsWhereAMotionTurnsBack) {
     EXPECT_THAT(kinematic_beats(unseen), IsEmpty());
 }
 
+// Beside a point that swings by a tenth the mean falls whenever the large one is lost.
+TEST(BeatAlignment, IsNotAskedOfAPointThatIsLost) {
+    const PointPaths large = swinging(6);
+    PointPaths paths{.fps = 60, .joints = 2, .points = {}};
+    for (const Vec3& point : large.points)
+        paths.points.insert(paths.points.end(), {point, 0.1f * point + Vec3(0, 2, 0)});
+    const std::vector<double> whole = kinematic_beats(paths);
+    ASSERT_EQ(whole.size(), 6u);
+    const auto lost = [&](std::size_t first, std::size_t last) {
+        PointPaths some = paths;
+        some.missing.assign(some.points.size(), false);
+        for (std::size_t t = first; t < last; ++t) {
+            some.missing[2 * t] = true;
+            some.points[2 * t] = Vec3(0);
+        }
+        return kinematic_beats(some);
+    };
+    EXPECT_EQ(lost(120, 121), whole);
+    EXPECT_EQ(lost(120, 126), whole) << "0.1 s are bridged";
+    EXPECT_EQ(lost(116, 128), whole) << "the other point alone counts around what is not bridged";
+    EXPECT_EQ(lost(120, 360), whole);
+    EXPECT_EQ(lost(0, 120), whole);
+}
+
+// Where it turns back the point is lost.
+TEST(BeatAlignment, BridgesOnACurve) {
+    PointPaths swings = swinging(4);
+    swings.missing.assign(swings.points.size(), false);
+    for (std::size_t t = 88; t < 94; ++t) swings.missing[t] = true;
+    EXPECT_THAT(kinematic_beats(swings), ElementsAre(DoubleNear(0.5, 0.01), DoubleNear(1.5, 0.02),
+                                                     DoubleNear(2.5, 0.01), DoubleNear(3.5, 0.01)));
+}
+
 // exp(-1 / 2) where all are one sigma away; only the nearest onset counts.
 TEST(BeatAlignment, IsOneOnTheOnsetsAndFallsAsAGaussian) {
     const std::vector<double> beats = {1, 2, 3};
