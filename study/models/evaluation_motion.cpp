@@ -13,6 +13,7 @@
 #include "skinning/signal/resample.h"
 #include "study/measure/adaptation.h"
 #include "study/measure/beat_alignment.h"
+#include "study/measure/chunk_scores.h"
 #include "study/measure/kolmogorov.h"
 #include "study/measure/lagged_correlation.h"
 #include "study/measure/likeness.h"
@@ -60,6 +61,7 @@ struct FaceColumns {
     std::string source;
     std::vector<std::string> names;
     std::vector<std::vector<float>> series;  // by column, (T)
+    std::vector<bool> seen;                  // (T) false: the frame was bridged by its reader
 };
 
 std::vector<int> units_of(const FaceTrack& face) {
@@ -71,6 +73,8 @@ std::vector<int> units_of(const FaceTrack& face) {
 FaceColumns columns_of(const Motion& motion) {
     const FaceTrack& face = *motion.face;
     FaceColumns columns{.source = motion.source};
+    columns.seen.assign(motion.frames, true);
+    for (std::size_t t = 0; t < face.confidence.size(); ++t) columns.seen[t] = face.confidence[t] > 0;
     const std::vector<int> units = units_of(face);
     const std::vector<float> rows = intensities_of(face, motion.frames, units);
     for (std::size_t u = 0; u < units.size(); ++u) {
@@ -99,24 +103,38 @@ FaceColumns columns_of(const Motion& motion) {
     return columns;
 }
 
+// Of frames that were seen.
+Json describe_series(std::span<const float> series, const std::vector<bool>& seen, double fps) {
+    ChunkScores values, squares, ways, active;
+    for (std::size_t t = 0; t < series.size(); ++t) {
+        if (!seen[t]) continue;
+        values.sum += series[t];
+        ++values.count;
+        active.sum += series[t] > kActiveIntensity;
+        ++active.count;
+        if (t == 0 || !seen[t - 1]) continue;
+        ways.sum += std::abs(double(series[t]) - series[t - 1]);
+        ++ways.count;
+    }
+    const auto mean = values.mean(), change = ways.mean();
+    for (std::size_t t = 0; mean && t < series.size(); ++t)
+        if (seen[t]) squares.sum += (series[t] - *mean) * (series[t] - *mean);
+    squares.count = values.count;
+    return {{"mean", or_null(mean)},
+            {"sd", mean ? Json(std::sqrt(*squares.mean())) : Json()},
+            {"per_second", change ? Json(*change * fps) : Json()},
+            {"active", or_null(active.mean())}};
+}
+
 Json describe_face(const Motion& motion) {
     Json rows = Json::array();
     const FaceColumns columns = columns_of(motion);
+    const auto lost = std::count(columns.seen.begin(), columns.seen.end(), false);
     for (std::size_t c = 0; c < columns.names.size(); ++c) {
-        const std::vector<float>& series = columns.series[c];
-        const auto n = static_cast<double>(series.size());
-        const double mean = std::accumulate(series.begin(), series.end(), 0.0) / n;
-        double squares = 0, ways = 0, active = 0;
-        for (std::size_t t = 0; t < series.size(); ++t) {
-            squares += (series[t] - mean) * (series[t] - mean);
-            if (t > 0) ways += std::abs(double(series[t]) - series[t - 1]);
-            active += series[t] > kActiveIntensity;
-        }
         Json row = {{"feature", columns.names[c]},
-                    {"mean", mean},
-                    {"sd", std::sqrt(squares / n)},
-                    {"per_second", series.size() > 1 ? Json(ways / (n - 1) * motion.fps) : Json()}};
-        if (columns.names[c].starts_with("AU")) row["active"] = active / n;
+                    {"missing", static_cast<double>(lost) / static_cast<double>(columns.seen.size())}};
+        row.update(describe_series(columns.series[c], columns.seen, motion.fps));
+        if (!columns.names[c].starts_with("AU")) row.erase("active");
         rows.push_back(std::move(row));
     }
     return rows;
@@ -146,6 +164,15 @@ Json compare_series(const std::string& name, std::span<const float> truth, std::
     row["precision"] = or_null(rates.precision);
     row["recall"] = or_null(rates.recall);
     return row;
+}
+
+// The numbers of the frames in which both faces were seen.
+std::vector<float> seen_in_both(const std::vector<float>& series, const FaceColumns& a,
+                                const FaceColumns& b) {
+    std::vector<float> seen;
+    for (std::size_t t = 0; t < series.size(); ++t)
+        if (a.seen[t] && b.seen[t]) seen.push_back(series[t]);
+    return seen;
 }
 
 // What a face has and the other lacks is compared with nothing.
@@ -190,6 +217,17 @@ std::optional<Json> compare_bodies(const BodyPaths& truth, const BodyPaths& ours
                 {"pck_01", or_null(errors.pck_01)},
                 {"pck_02", or_null(errors.pck_02)},
                 {"frechet", or_null(pose_distance(a, b, axes))}};
+}
+
+// TLCC, DTW and the like need series without gaps.
+void note_bridged(const Motion& motion, std::vector<std::string>& notes) {
+    const std::vector<float>& sure = motion.face->confidence;
+    const auto lost =
+        std::count_if(sure.begin(), sure.end(), [](float confidence) { return confidence <= 0; });
+    if (lost > 0)
+        notes.push_back(format(
+            "{}: the face is lost in {} of {} frames; smiles of both people take lines over these gaps",
+            motion.source, lost, sure.size()));
 }
 
 std::vector<float> smile_of(const Motion& motion) {
@@ -288,7 +326,13 @@ void measure_against(const Motion& motion, const Motion& reference, MotionMeasur
             const auto found = std::find(a.names.begin(), a.names.end(), b.names[c]);
             if (found == a.names.end()) continue;
             const auto& series = a.series[static_cast<std::size_t>(found - a.names.begin())];
-            measures.near.push_back(compare_series(b.names[c], series, b.series[c]));
+            const std::vector<float> known = seen_in_both(series, a, b);
+            if (known.empty()) {
+                throw Error(format(
+                    "{} and {}: there is no frame in which both faces were seen; give recordings that share some",
+                    motion.source, reference.source));
+            }
+            measures.near.push_back(compare_series(b.names[c], known, seen_in_both(b.series[c], a, b)));
         }
     }
     const Origin origin = shared_origin(std::array{&truth, &ours});
@@ -363,6 +407,7 @@ void measure_style(const Motion& motion, const Motion& source, const Motion& tar
 void measure_pair(const Motion& motion, const Motion& partner, MotionMeasures& measures) {
     const auto [a, u] = aligned(motion, partner, measures.notes);
     const std::vector<float> mine = smile_of(a), theirs = smile_of(u);
+    for (const Motion* person : {&a, &u}) note_bridged(*person, measures.notes);
     const LaggedCorrelation lagged = lagged_correlation(mine, theirs, u.fps);
     ChunkScores lags{.count = static_cast<double>(lagged.peaks.size())};
     lags.sum = std::accumulate(lagged.peaks.begin(), lagged.peaks.end(), 0.0);

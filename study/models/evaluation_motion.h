@@ -33,11 +33,13 @@ struct MotionMeasures {
 // Each by itself, at the lowest of their rates; at least one motion. Of the body: velocity, acceleration and jerk of
 // the points that all motions with a body have, and of the wrists, the perimeter of their box from the front and their
 // extent, in widths of the shoulders where both are known, else in the file's unit, relative to the neck, or to the
-// middle of the shoulders if one has no neck. Of the face: how much each unit is active, how fast the head turns.
+// middle of the shoulders if one has no neck. Of the face: how much each unit is active, how fast the head turns, over
+// the frames that were seen.
 std::vector<MotionMeasures> measure_motions(std::span<const Motion> motions);
 
 // The motion is brought to the reference's rate, and both are cut to the shorter one. Poses are compared in space where
-// both have it, else in the picture. Throws Error if they share neither a body nor a face.
+// both have it, else in the picture; faces in the frames in which both were seen. Throws Error if they share neither a
+// body nor a face, or have no such frame.
 void measure_against(const Motion& motion, const Motion& reference, MotionMeasures& measures);
 
 // How far the motion has come from the style of `source` to that of `target`: Dist_avg (style_distance.h) of the points
@@ -46,7 +48,7 @@ void measure_against(const Motion& motion, const Motion& reference, MotionMeasur
 void measure_style(const Motion& motion, const Motion& source, const Motion& target,
                    MotionMeasures& measures);
 
-// Throws Error if one of both faces has no AU12.
+// Frames that a reader bridged count, and a note says how many. Throws Error if one of both faces has no AU12.
 void measure_pair(const Motion& motion, const Motion& partner, MotionMeasures& measures);
 
 // Beat alignment (BC) with the onsets of the sound of the upper body, relative to the middle of the shoulders

@@ -67,6 +67,7 @@ const std::vector<MeasureColumn> kBodyColumns = {
     {"extent", "Extent"},
 };
 const std::vector<MeasureColumn> kFaceColumns = {{"feature", "Feature", analysis::Show::text},
+                                                 {"missing", "Missing", analysis::Show::percent},
                                                  {"mean", "Mean"},
                                                  {"sd", "SD"},
                                                  {"per_second", "Change/s"},

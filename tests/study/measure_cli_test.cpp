@@ -124,6 +124,37 @@ TEST_F(Measure, ComparesAFaceWithAReferenceAtItsRate) {
     EXPECT_NEAR(late["pcc"].get<double>(), 0, 0.01);
 }
 
+// A smile of 1, and half of the frames lost and bridged at 5.
+TEST_F(Measure, LeavesOutFramesInWhichAFaceIsLost) {
+    Motion half = smiling(0, 25, 10), other = smiling(0, 25, 10);
+    half.face->confidence.assign(250, 1);
+    half.face->intensities.assign(250, 1);
+    other.face->intensities.assign(250, 1);
+    for (size_t t = 0; t < 125; ++t) {
+        half.face->confidence[t] = 0;
+        half.face->intensities[t] = 5;
+    }
+    const std::string lost = write("a.h5", half), whole = write("b.h5", other);
+    const Json found = measure({lost, "--against", whole})[0];
+    const Json face = found["face"][0], near = found["near"][0];
+    EXPECT_EQ(face["missing"], 0.5);
+    EXPECT_EQ(face["mean"], 1);
+    EXPECT_EQ(face["sd"], 0);
+    EXPECT_EQ(face["per_second"], 0);
+    EXPECT_EQ(near["frames"], 125);
+    EXPECT_EQ(near["rmse"], 0);
+    EXPECT_EQ(measure({whole})[0]["face"][0]["missing"], 0);
+    EXPECT_THAT(run_chironomia({"measure", lost}).out, HasSubstr("Missing"));
+    EXPECT_THAT(
+        measure({lost, "--partner", whole})[0]["notes"].dump(),
+        HasSubstr("a.h5: the face is lost in 125 of 250 frames; smiles of both people take lines over these "
+                  "gaps"));
+    for (size_t t = 0; t < 250; ++t) half.face->confidence[t] = t < 125 ? 1 : 0;
+    EXPECT_THAT(
+        refusal({lost, "--against", write("c.h5", half)}, 3),
+        HasSubstr("there is no frame in which both faces were seen; give recordings that share some"));
+}
+
 TEST_F(Measure, ComparesBodies) {
     const std::string file = write("a.h5", reaching());
     const Json near = measure({file, "--against", file})[0]["near"][0];
