@@ -12,8 +12,9 @@ std::size_t frames_in(double seconds, double fps) {
     return static_cast<std::size_t>(std::lround(seconds * fps));
 }
 
+// Seconds of each minute.
 double per_minute(double frames, const PairedRuns& runs) {
-    return frames * 60 * runs.fps / static_cast<double>(runs.frames);
+    return frames * 60 / static_cast<double>(runs.frames);
 }
 
 // The first of `runs` that begins at `from` or later, and soon after `before` or while it lasts.
@@ -74,8 +75,8 @@ double entrainment(const PairedRuns& runs) {
 
 const std::vector<AdaptationMeasure>& adaptation_measures() {
     static const std::vector<AdaptationMeasure> measures = {
-        {"sync", "Sync", "proposed", synchrony},
-        {"el", "EL", "proposed", entrainment},
+        {"sync", "Sync", "s/min", "proposed", synchrony},
+        {"el", "EL", "s/min", "proposed", entrainment},
     };
     return measures;
 }

@@ -1,7 +1,7 @@
 // Synchrony and entrainment of smiles of two people. Woo et al. (ICAART 2023) measure it by synchrony and
 // entrainment loops; their definitions are not at hand, so ours are called "proposed" (ambiguity A67): they
 // compare a model with people on the same recordings, never with published numbers. The originals can stand
-// beside them in adaptation_measures().
+// beside them in adaptation_measures(). The proposal counts frames; ours are seconds, which hold at any rate.
 #pragma once
 
 #include <cstddef>
@@ -33,18 +33,19 @@ struct PairedRuns {
     double fps = 25;
 };
 
-// Over every run of a and every run of u that begin at most 2 s apart: the frames that they share once their
-// onsets are laid over each other, which is the length of the shorter one. In frames per minute.
+// Over every run of a and every run of u that begin at most 2 s apart: the time that they share once their onsets are
+// laid over each other, which is the length of the shorter one [s/min].
 double synchrony(const PairedRuns& runs);
 
 // Over every run that begins a loop: the other person's first run from then on that begins within 2 s or
 // before the run ends, and the first person's first run after that one's onset, which follows it in the same
-// way; the loop goes from the first onset to the last offset. In frames per minute.
+// way; the loop goes from the first onset to the last offset [s/min].
 double entrainment(const PairedRuns& runs);
 
 struct AdaptationMeasure {
     std::string key;     // "sync"
     std::string title;   // "Sync"
+    std::string unit;    // "s/min"
     std::string origin;  // whose definition: "proposed"
     std::function<double(const PairedRuns&)> measure;
 };

@@ -40,7 +40,8 @@ const std::vector<ShownMetric> kOfFeatures = {
 std::vector<ShownMetric> pair_metrics() {
     std::vector<ShownMetric> metrics = {{"tlcc", "TLCC"}, {"dtw", "DTW", Show::one}};
     for (const AdaptationMeasure& measure : adaptation_measures())
-        metrics.push_back({measure.key, format("{} ({})", measure.title, measure.origin), Show::one});
+        metrics.push_back(
+            {measure.key, format("{} [{}] ({})", measure.title, measure.unit, measure.origin), Show::one});
     return metrics;
 }
 
@@ -160,7 +161,7 @@ Table pairs_of(const Evaluation& evaluation) {
          .title = format("Smiles of two people (AU12; {})", where(evaluation)),
          .note = "Of a person, or of the model in the person's place, with the partner; nearer to people is "
                  "better. Gap: model less people, over the same resamples. DTW in intensities summed over "
-                 "60 s; Sync and EL [frames/min] by our own definitions, not those of the published numbers.",
+                 "60 s; Sync and EL [s/min] by our own definitions, not those of the published numbers.",
          .columns = {{"model", "Model"}, {"n", "n", Show::whole}, {"frames", "Frames", Show::whole}}});
     for (const SystemScores& system : evaluation.systems) {
         if (!system.pair) continue;

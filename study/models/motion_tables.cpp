@@ -106,8 +106,8 @@ const std::vector<MeasureColumn> kStyleColumns = {
 const std::vector<MeasureColumn> kPairColumns = {{"tlcc", "TLCC"},
                                                  {"lag", "Lag [s]", analysis::Show::two},
                                                  {"dtw", "DTW", analysis::Show::one},
-                                                 {"sync", "Sync (proposed)", analysis::Show::one},
-                                                 {"el", "EL (proposed)", analysis::Show::one}};
+                                                 {"sync", "Sync [s/min] (proposed)", analysis::Show::one},
+                                                 {"el", "EL [s/min] (proposed)", analysis::Show::one}};
 const std::vector<MeasureColumn> kBeatColumns = {{"beats", "Beats of the motion", analysis::Show::whole},
                                                  {"onsets", "Onsets of the sound", analysis::Show::whole},
                                                  {"alignment", "Beat alignment (BC)"},

@@ -437,6 +437,16 @@ TEST_F(Measure, FindsHowLateAPartnerFollows) {
     EXPECT_NEAR(pair["lag"].get<double>(), 1.2, 1e-6);
     EXPECT_GT(pair["dtw"].get<double>(), 0);
     EXPECT_GT(pair["sync"].get<double>(), 0);
+    // The same smiles at twice the rate.
+    const Json fast =
+        measure({write("a.h5", smiling(0, 50)), "--partner", write("u.h5", smiling(1.2, 50))})[0]["pair"][0];
+    for (const char* loop : {"sync", "el"})
+        EXPECT_NEAR(fast[loop].get<double>(), pair[loop].get<double>(), 0.05 * pair[loop].get<double>())
+            << loop;
+    EXPECT_THAT(
+        run_chironomia({"measure", (folder_ / "a.h5").string(), "--partner", (folder_ / "u.h5").string()})
+            .out,
+        HasSubstr("Sync [s/min] (proposed)"));
 }
 
 TEST_F(Measure, SaysWhatShortMotionsLeaveOut) {

@@ -246,7 +246,7 @@ TEST(EvaluationTables, ShowPeopleAboveModels) {
     EXPECT_EQ(rows[0]["model"], "people");
     EXPECT_EQ(rows[0]["tlcc_published"], 0.334);
     EXPECT_EQ(rows[1]["dtw_gap"], 0);
-    EXPECT_THAT(analysis::to_text(tables[2]), HasSubstr("Sync (proposed)"));
+    EXPECT_THAT(analysis::to_text(tables[2]), HasSubstr("Sync [s/min] (proposed)"));
     EXPECT_EQ(to_json(tables[0]).size(), 1u) << "people make no errors";
 }
 
