@@ -58,7 +58,7 @@ struct CorpusIndex {
 };
 
 // Throws Error if the folder holds no corpus, an id comes twice, a speaker of `unseen` is in another split, a
-// participant of a dyad of `test` is in one of `train`, or `train` is empty. PATS's own tree has its
+// participant of a dyad is in another split, too, or `train` is empty. PATS's own tree has its
 // `dataset` column for splits; its speakers of the thesis's UNSEEN set have their test intervals in `unseen`
 // and no others, and what is left out is counted in `origin`.
 CorpusIndex read_corpus_index(const std::filesystem::path& folder);

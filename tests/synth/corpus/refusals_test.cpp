@@ -185,7 +185,7 @@ TEST(IndexRefusals, NameTheKeyOrTheSpeaker) {
                 EndsWith("the split train is empty, of 5 records; models learn from it alone"));
 }
 
-TEST(IndexRefusals, KeepParticipantsOfTheTestOutOfTraining) {
+TEST(IndexRefusals, KeepParticipantsOfDyadsToOneSplit) {
     const TemporaryFolder folder;
     const CorpusIndex index =
         sample_index(folder.path(), CorpusKind::dyads,
@@ -195,6 +195,16 @@ TEST(IndexRefusals, KeepParticipantsOfTheTestOutOfTraining) {
         refusal_of([&] { write_corpus_index(index); }),
         EndsWith("corpus.json: speaker \"p1\" is in the split test (record \"d2\") and in train (record "
                  "\"d1\"); keep each participant to one of them"));
+    const CorpusIndex stopped =
+        sample_index(folder.path(), CorpusKind::dyads,
+                     {{.id = "d1", .speaker = "p1+p2", .split = Split::train, .seconds = 4},
+                      {.id = "d2", .speaker = "p3+p4", .split = Split::validation, .seconds = 4},
+                      {.id = "d3", .speaker = "p4+p5", .split = Split::test, .seconds = 4}});
+    EXPECT_THAT(
+        refusal_of([&] { write_corpus_index(stopped); }),
+        EndsWith(
+            "speaker \"p4\" is in the split test (record \"d3\") and in validation (record \"d2\"); keep "
+            "each participant to one of them"));
 }
 
 // A record's file with something else under its name.
