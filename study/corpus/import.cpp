@@ -12,6 +12,7 @@
 #include "study/corpus/manifest.h"
 #include "study/corpus/recording.h"
 #include "study/corpus/talks.h"
+#include "study/measure/pointwise.h"
 #include "synth/corpus/splits.h"
 #include "synth/corpus/statistics.h"
 
@@ -37,6 +38,10 @@ struct DyadSide {
     }
 };
 
+std::string voice_file(const RecordedPerson& person) {
+    return (person.audio.empty() ? person.speech : person.audio).string();
+}
+
 // All four recordings begin together; what one has more at its end is cut off.
 std::size_t common_frames(const std::array<DyadSide, 2>& sides, const DyadRecording& dyad,
                           const std::string& where) {
@@ -50,6 +55,33 @@ std::size_t common_frames(const std::array<DyadSide, 2>& sides, const DyadRecord
                    sides[1].voice_seconds()));
     }
     return static_cast<std::size_t>(shortest * DyadRecord::kFps + 1e-6);
+}
+
+// A copy that is louder or has another rate has the same loudness but for a factor, and the same pitch. Those of two
+// people have not, even where each microphone hears both; the limits are ours.
+void refuse_copied_voice(const std::array<DyadSide, 2>& sides, const DyadRecording& dyad,
+                         const std::string& where) {
+    constexpr double kLikeLoudness = 0.999, kLikePitch = 0.95, kSamePitch = 0.01;
+    constexpr std::size_t kPitch = 0, kLoudness = 1;
+    const std::size_t rows = std::min(sides[0].voice.size(), sides[1].voice.size()) / DyadPerson::kSpeech;
+    std::array<std::vector<float>, 2> loudness;
+    double voiced = 0, same = 0;
+    for (std::size_t t = 0; t < rows; ++t) {
+        const float *a = &sides[0].voice[t * DyadPerson::kSpeech],
+                    *b = &sides[1].voice[t * DyadPerson::kSpeech];
+        loudness[0].push_back(a[kLoudness]);
+        loudness[1].push_back(b[kLoudness]);
+        if (a[kPitch] <= 0 || b[kPitch] <= 0) continue;
+        ++voiced;
+        same += std::abs(a[kPitch] - b[kPitch]) <= kSamePitch * a[kPitch];
+    }
+    const auto correlation = pearson(loudness[0], loudness[1]);
+    if (!correlation || *correlation < kLikeLoudness || voiced == 0 || same < kLikePitch * voiced) return;
+    throw Error(format(
+        "{}: dyad \"{}\": {} and {} are one sound: their loudness correlates by {:.4f}, and their pitch is the same in "
+        "{:.0f} % of the frames; give each person's own microphone",
+        where, dyad.id, voice_file(dyad.people[0]), voice_file(dyad.people[1]), *correlation,
+        100 * same / voiced));
 }
 
 JoinedDyad join_dyad(const DyadRecording& dyad, const ShotLimits& limits, const std::string& where) {
@@ -67,6 +99,7 @@ JoinedDyad join_dyad(const DyadRecording& dyad, const ShotLimits& limits, const 
             joined.notes.push_back(format("{}, {}: {}", dyad.id, dyad.participants[p], note));
     }
     const std::size_t frames = common_frames(sides, dyad, where);
+    refuse_copied_voice(sides, dyad, where);
     for (std::size_t p = 0; p < 2; ++p) {
         const auto face = smoothed(sides[p].face);
         if (!face || frames == 0 || success_of(*face) < limits.least_success) {

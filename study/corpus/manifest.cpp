@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "skinning/motion/picture/openpose.h"
 #include "skinning/signal/frame_rate.h"
+#include "study/corpus/contents.h"
 #include "synth/corpus/record_checks.h"
 
 namespace chironomia::study {
@@ -111,7 +112,8 @@ class ManifestReader {
                 "there is \"speech\", but not \"voice\" of openSMILE's eGeMAPS; add it, or \"audio\"");
         talk.words = path_of(value.at("words"));
         if (const auto shots = value.find("shots")) talk.shots = path_of(*shots);
-        take(value.at("face"), talk.person.face, {.id = talk.id, .shots = talk.shots});
+        const fs::path shots = talk.shots.empty() ? fs::path() : contents_.first_like(talk.shots);
+        take(value.at("face"), talk.person.face, {.id = talk.id, .shots = shots});
         talk.split = split_of(value);
         return talk;
     }
@@ -144,11 +146,12 @@ class ManifestReader {
     static void refuse_one_voice(const JsonValue& second, const std::array<RecordedPerson, 2>& people) {
         for (const auto file : {&RecordedPerson::audio, &RecordedPerson::speech}) {
             const fs::path &a = people[0].*file, &b = people[1].*file;
-            if (a.empty() || b.empty() || fs::canonical(a) != fs::canonical(b)) continue;
+            if (a.empty() || b.empty() || !have_same_contents(a, b)) continue;
+            const bool is_copy = fs::canonical(a) != fs::canonical(b);
             second.refuse(format(
-                "{} is the voice of the other person, too; give each one's own microphone, or cut a sound that "
+                "{} is the voice of the other person, too{}; give each one's own microphone, or cut a sound that "
                 "has one in each channel: ffmpeg -i both.wav -af \"pan=mono|c0=c0\" first.wav",
-                b.string()));
+                b.string(), is_copy ? format(": it has the bytes of {}", a.string()) : ""));
         }
     }
 
@@ -236,13 +239,16 @@ class ManifestReader {
         double start = 0, end = std::numeric_limits<double>::infinity();  // [s]
     };
     void take(const JsonValue& value, const fs::path& motion, const Taken& part) {
-        std::vector<Taken>& others = taken_[fs::canonical(motion)];
+        const fs::path first = contents_.first_like(motion);
+        const bool is_copy = fs::canonical(first) != fs::canonical(motion);
+        std::vector<Taken>& others = taken_[first];
         for (const Taken& other : others) {
             if (part.shots != other.shots || part.start >= other.end || other.start >= part.end) continue;
             value.refuse(format(
-                "{} is of \"{}\" already; take no part of a recording twice, for a model would be judged "
+                "{} is of \"{}\" already{}; take no part of a recording twice, for a model would be judged "
                 "on what it has learned",
-                motion.string(), other.id));
+                motion.string(), other.id,
+                is_copy ? format(": it has the bytes of {}", first.string()) : ""));
         }
         others.push_back(part);
     }
@@ -267,7 +273,8 @@ class ManifestReader {
     fs::path folder_;
     std::set<std::string> ids_;
     std::map<std::string, std::string> people_;     // names as they are first written, by their lower case
-    std::map<fs::path, std::vector<Taken>> taken_;  // by the canonical paths of motions
+    RecordingContents contents_;                    // of motions
+    std::map<fs::path, std::vector<Taken>> taken_;  // by the first of the paths with the same contents
     std::optional<bool> has_splits_;                // of the first recording
     ImportManifest manifest_;
 };

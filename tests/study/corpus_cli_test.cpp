@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "core/files/json.h"
@@ -32,9 +33,13 @@ using testing::TemporaryFolder;
 class CorpusImport : public ::testing::Test {
   protected:
     CorpusImport() {
-        for (const char* face : {"face.csv", "p1.csv", "p2.csv"})
-            testing::write_openface(file(face), {.first_lost = 20, .end_lost = 23});
-        for (const char* voice : {"voice.wav", "p1.wav", "p2.wav"}) testing::write_voice(file(voice));
+        double confidence = 0.98;
+        for (const char* face : {"face.csv", "p1.csv", "p2.csv"}) {
+            testing::write_openface(file(face), {.first_lost = 20, .end_lost = 23, .confidence = confidence});
+            confidence -= 0.01;
+        }
+        for (const char* voice : {"voice.wav", "p1.wav"}) testing::write_voice(file(voice));
+        testing::write_voice(file("p2.wav"), 6, 180);
         testing::write_timed_words(file("words.csv"));
     }
 
@@ -328,6 +333,29 @@ TEST_F(CorpusImport, RefusesOneVoiceForTwoPeople) {
                 AllOf(HasSubstr("m.json: recordings[0].people[1]: "),
                       HasSubstr("p1.wav is the voice of the other person, too; give each "
                                 "one's own microphone")));
+    fs::copy(file("p1.wav"), file("copy.wav"));
+    changed["people"][1]["audio"] = "copy.wav";
+    EXPECT_THAT(dyad_refusal(changed),
+                HasSubstr("copy.wav is the voice of the other person, too: it has the bytes of " +
+                          file("p1.wav").string() + "; give each one's own microphone"));
+    const auto write_waving = [&](const std::string& name, double pitch, int rate, float factor) {
+        Audio voice = testing::voice_like(pitch, rate, 6);
+        for (size_t i = 0; i < voice.samples.size(); ++i)
+            voice.samples[i] *=
+                factor * static_cast<float>(1 + 0.8 * std::sin(5.0 * static_cast<double>(i) / rate));
+        write_wav(file(name), voice);
+    };
+    write_waving("p1.wav", 120, 16000, 0.5f);
+    write_waving("quiet.wav", 120, 22050, 0.1f);
+    write_waving("p2.wav", 180, 16000, 0.5f);
+    changed["people"][1]["audio"] = "quiet.wav";
+    EXPECT_THAT(
+        dyad_refusal(changed),
+        AllOf(HasSubstr("m.json: dyad \"d1\": " + file("p1.wav").string() + " and " +
+                        file("quiet.wav").string() + " are one sound: their loudness correlates by "),
+              HasSubstr(", and their pitch is the same in 100 % of the frames; give each person's own "
+                        "microphone")));
+    EXPECT_EQ(import_all("dyads", {dyad()}).exit_code, 0) << "another pitch, equally loud: another person";
 }
 
 TEST_F(CorpusImport, RefusesABrokenManifestWithItsKey) {
@@ -374,6 +402,12 @@ TEST_F(CorpusImport, RefusesAFaceThatIsTakenTwice) {
         refusal({{"kind", "talks"}, {"recordings", {talk(), again}}}),
         HasSubstr("face.csv is of \"t1\" already; take no part of a recording twice, for a model would be "
                   "judged on what it has learned"));
+    fs::copy(file("face.csv"), file("copy.csv"));
+    again["face"] = "copy.csv";
+    EXPECT_THAT(
+        refusal({{"kind", "talks"}, {"recordings", {talk(), again}}}),
+        HasSubstr("recordings[1].face: " + file("copy.csv").string() +
+                  " is of \"t1\" already: it has the bytes of " + file("face.csv").string() + "; take no"));
     Json alone = dyad();
     alone["people"][1]["face"] = "p1.csv";
     EXPECT_THAT(dyad_refusal(alone), HasSubstr("recordings[0].people[1].face: "));

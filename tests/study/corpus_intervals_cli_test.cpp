@@ -135,6 +135,11 @@ class IntervalImport : public ::testing::Test {
         write_openpose(file("pose"), pictured(spec));
     }
 
+    // Another recording, in which a point is lost in another frame.
+    void write_other_pose(const std::string& name, std::size_t lost = 0) {
+        write_openpose(file(name), pictured({.lost = {"nose"}, .first_lost = lost, .end_lost = lost + 1}));
+    }
+
     static Json recording() {
         return {{"id", "r1"}, {"speaker", "anna"},    {"pose", "pose"},
                 {"fps", 25},  {"audio", "voice.wav"}, {"words", "words.csv"}};
@@ -385,7 +390,7 @@ TEST_F(IntervalImport, SplitsBySpeakersUnlessSplitsAreGiven) {
     for (const char* who : {"anna", "ben", "cleo", "dora", "emil"}) {
         recordings.push_back(with("speaker", who));
         recordings.back()["id"] = recordings.back()["pose"] = who;
-        fs::copy(file("pose"), file(who));
+        write_other_pose(who, recordings.size());
     }
     const Outcome made = import_all(recordings);
     ASSERT_EQ(made.exit_code, 0) << made.err;
@@ -405,8 +410,8 @@ TEST_F(IntervalImport, SplitsBySpeakersUnlessSplitsAreGiven) {
 
 TEST_F(IntervalImport, GivesTheSameBytes) {
     Json second = with("id", "r2");
-    second["pose"] = "copy";
-    fs::copy(file("pose"), file("copy"));
+    second["pose"] = "other";
+    write_other_pose("other");
     ASSERT_EQ(import_all({recording(), second}, Json::object(), "a").exit_code, 0);
     ASSERT_EQ(import_all({recording(), second}, Json::object(), "b").exit_code, 0);
     for (const char* name : {"corpus.json", "statistics.json", "data/cmu_intervals_df.csv",
@@ -636,13 +641,20 @@ TEST_F(IntervalImport, TakesNoPartOfARecordingTwice) {
     EXPECT_THAT(twice.err, HasSubstr("pose is of \"r1\" already; take no part of a recording twice"));
     second["start"] = 7;
     EXPECT_EQ(import_all({first, second}).exit_code, 0) << "these are two parts";
+    fs::copy(file("pose"), file("copy"));
+    second["pose"] = "copy";
+    EXPECT_EQ(import_all({first, second}).exit_code, 0) << "these are two parts";
+    second["start"] = 6.9;
+    EXPECT_THAT(import_all({first, second}).err, HasSubstr("recordings[1].pose: " + file("copy").string() +
+                                                           " is of \"r1\" already: it has the bytes of " +
+                                                           file("pose").string() + "; take no part"));
 }
 
 TEST_F(IntervalImport, LeavesNothingBehindIfTheLastRecordingIsBroken) {
     Json second = with("words", "broken.csv");
     second["id"] = "r2";
-    second["pose"] = "copy";
-    fs::copy(file("pose"), file("copy"));
+    second["pose"] = "other";
+    write_other_pose("other");
     write_text(file("broken.csv"), "start,end,word\n3,2,back\n");
     const Outcome outcome = import_all({recording(), second});
     EXPECT_EQ(outcome.exit_code, 3);

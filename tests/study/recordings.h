@@ -49,9 +49,9 @@ inline void write_openface(const std::filesystem::path& file, const FaceSpec& sp
     write_text(file, text + "\n");
 }
 
-// A voice of 120 Hz.
-inline void write_voice(const std::filesystem::path& file, double seconds = 6) {
-    write_wav(file, voice_like(120, 16000, seconds));
+// A voice of 120 Hz, or of another pitch.
+inline void write_voice(const std::filesystem::path& file, double seconds = 6, double pitch = 120) {
+    write_wav(file, voice_like(pitch, 16000, seconds));
 }
 
 // "well , done" from 0.5 to 1.5 s with a short silence, and "again" from 2.5 to 3 s.
