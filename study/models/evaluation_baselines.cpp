@@ -6,17 +6,12 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "study/models/recorded_rows.h"
 
 namespace chironomia::study {
 namespace {
 
 constexpr double kHeld = 0.5;  // [s]
-
-// The columns of records under the names that predictions have.
-const std::vector<std::string> kUnits = {"AU1", "AU2", "AU4", "AU5", "AU6", "AU7"};
-const std::vector<std::string> kAngles = {"Rx", "Ry", "Rz"};
-const std::vector<std::string> kDyadFace = {"gaze_angle_x", "gaze_angle_y", "Rx",  "Ry",  "Rz",
-                                            "AU1",          "AU2",          "AU4", "AU6", "AU12"};
 
 // Sums over frames, by feature and on its scale.
 class Means {
@@ -57,16 +52,9 @@ class Means {
 
 std::vector<double> training_means(const Predictions& of, const CorpusIndex& corpus) {
     Means means(of);
-    for (const CorpusEntry& entry : corpus.of(Split::train)) {
-        if (corpus.kind == CorpusKind::talks) {
-            const IpuRecord record = read_ipu(corpus, entry);
-            means.add(kUnits, record.units);
-            means.add(kAngles, record.head);
-        } else if (corpus.kind == CorpusKind::dyads) {
-            for (const DyadPerson& person : read_dyad(corpus, entry).people)
-                means.add(kDyadFace, person.face);
-        }
-    }
+    for (const CorpusEntry& entry : corpus.of(Split::train))
+        for (const RecordedRows& person : recorded_rows(corpus, entry))
+            means.add(person.features, person.values);
     return means.means(corpus.folder.string());
 }
 

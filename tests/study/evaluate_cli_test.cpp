@@ -10,6 +10,7 @@
 #include "tests/study/process.h"
 #include "tests/study/sample_predictions.h"
 #include "tests/support/support.h"
+#include "tests/synth/corpus/sample_records.h"
 
 namespace chironomia::study {
 namespace {
@@ -107,12 +108,58 @@ TEST_F(EvaluateVerb, SaysWhatIsWrong) {
         HasSubstr("m.safetensors"));
 }
 
+// The record of an item of sample_faces().
+IpuRecord recorded_face(const std::string& id) {
+    IpuRecord record = testing::sample_ipu(id, "s");
+    const std::vector<float> truth = sample_faces().items[0].truth;
+    for (std::size_t t = 0; t < record.frames(); ++t) {
+        record.units[t * IpuRecord::kUnits] = 5 * truth[2 * t];
+        record.head[t * IpuRecord::kAngles] = -0.5f + 2 * truth[2 * t + 1];
+    }
+    return record;
+}
+
+TEST_F(EvaluateVerb, RefusesATruthThatTheCorpusDoesNotHold) {
+    CorpusIndex corpus{.folder = folder_ / "talks"};
+    for (const char* id : {"s0", "s1", "s2"})
+        corpus.entries.push_back({.id = id, .speaker = "s", .split = Split::test, .seconds = 2});
+    corpus.entries.push_back({.id = "s4", .speaker = "s", .split = Split::train, .seconds = 2});
+    for (const CorpusEntry& entry : corpus.entries) write_ipu(corpus.folder, recorded_face(entry.id));
+    write_corpus_index(corpus);
+    const std::vector<std::string> call = {"--predictions", file("a.h5"), "--corpus", file("talks")};
+    Predictions halved = sample_faces();
+    for (float& value : halved.items[1].truth) value /= 2;
+    write_predictions(file("a.h5"), halved);
+    EXPECT_THAT(refusal(call, 3),
+                AllOf(HasSubstr("a.h5: /truth of s1: Rx of frame 0 is 0.2500, and its record in " +
+                                file("talks") + " has "),
+                      HasSubstr("; give the corpus that was predicted, and what people did in it")));
+    Predictions slow = sample_faces();
+    slow.fps = 25;
+    write_predictions(file("a.h5"), slow);
+    EXPECT_THAT(refusal(call, 3), HasSubstr("a.h5: /fps is 25, and the records of " + file("talks") +
+                                            " have 24 frames/s; predict at their rate"));
+    Predictions longer = sample_faces();
+    for (auto* rows : {&longer.items[2].truth, &longer.items[2].prediction})
+        rows->insert(rows->end(), {0, 0});
+    write_predictions(file("a.h5"), longer);
+    EXPECT_THAT(refusal(call, 3), HasSubstr("a.h5: /frames of s2 is 49, and its record in " + file("talks") +
+                                            " has 48; give the corpus that was predicted"));
+    // Models may leave out frames, such as those between words.
+    Predictions shorter = sample_faces();
+    for (PredictedItem& item : shorter.items)
+        for (auto* rows : {&item.truth, &item.prediction})
+            rows->erase(rows->begin() + 20, rows->begin() + 44);
+    write_predictions(file("a.h5"), shorter);
+    EXPECT_EQ(evaluate(call).exit_code, 0);
+}
+
 TEST_F(EvaluateVerb, ComparesPredictionsWithTheRecordsThatTheCorpusHas) {
     CorpusIndex corpus{.folder = folder_ / "talks"};
     for (const char* id : {"s0", "s1", "s2", "s3"})
         corpus.entries.push_back({.id = id, .speaker = "s", .split = Split::test, .seconds = 2});
     corpus.entries.push_back({.id = "s4", .speaker = "s", .split = Split::train, .seconds = 2});
-    fs::create_directories(corpus.folder);
+    for (const CorpusEntry& entry : corpus.entries) write_ipu(corpus.folder, recorded_face(entry.id));
     write_corpus_index(corpus);
     write_predictions(file("a.h5"), sample_faces());
     const std::vector<std::string> call = {"--predictions", file("a.h5"), "--corpus", file("talks")};

@@ -13,6 +13,7 @@
 #include "study/cli/verbs/verbs.h"
 #include "study/models/evaluation_baselines.h"
 #include "study/models/evaluation_tables.h"
+#include "study/models/recorded_rows.h"
 #include "study/models/style_maps.h"
 #include "synth/learning.h"
 
@@ -186,12 +187,8 @@ void name_apart(std::vector<Predictions>& models, const std::vector<fs::path>& f
     }
 }
 
-// The record of an item: of a dyad its id is "d03:0", of a style that was transferred "t05>anna".
-std::string record_of(const PredictedItem& item) {
-    return item.id.substr(0, item.id.find_first_of(":>"));
-}
-
-// What other programs predicted must be of the records that the command names. Says which of these it lacks.
+// What other programs predicted must be of the records that the command names, and of what people did in them. Says
+// which of these it lacks.
 std::vector<std::string> check_records(const EvaluateCommand& command, const fs::path& file,
                                        const Predictions& predictions) {
     if (predictions.split != command.split) {
@@ -199,8 +196,8 @@ std::vector<std::string> check_records(const EvaluateCommand& command, const fs:
                            file.string(), predictions.split, command.split));
     }
     std::set<std::string> asked, predicted;
-    for (const CorpusEntry& entry : read_corpus_index(command.corpus).of(*split_named(command.split)))
-        asked.insert(entry.id);
+    const CorpusIndex corpus = read_corpus_index(command.corpus);
+    for (const CorpusEntry& entry : corpus.of(*split_named(command.split))) asked.insert(entry.id);
     for (const PredictedItem& item : predictions.items) {
         const std::string record = record_of(item);
         if (!asked.contains(record)) {
@@ -210,12 +207,14 @@ std::vector<std::string> check_records(const EvaluateCommand& command, const fs:
         }
         predicted.insert(record);
     }
-    if (predicted.size() == asked.size()) return {};
+    std::vector<std::string> notes = check_truth(predictions, corpus, file.string());
+    if (predicted.size() == asked.size()) return notes;
     const std::string lacks =
         *std::ranges::find_if(asked, [&](const std::string& id) { return !predicted.contains(id); });
-    return {format("{}: {} of the {} records of {} in \"{}\" are predicted; \"{}\" is the first that is not",
-                   file.string(), predicted.size(), asked.size(), command.corpus.string(), command.split,
-                   lacks)};
+    notes.push_back(
+        format("{}: {} of the {} records of {} in \"{}\" are predicted; \"{}\" is the first that is not",
+               file.string(), predicted.size(), asked.size(), command.corpus.string(), command.split, lacks));
+    return notes;
 }
 
 std::string text_of(const analysis::Table& table) {

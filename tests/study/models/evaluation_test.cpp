@@ -7,11 +7,14 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/text.h"
 #include "study/models/evaluation_baselines.h"
 #include "study/models/evaluation_tables.h"
+#include "study/models/recorded_rows.h"
 #include "study/published/published.h"
 #include "tests/study/sample_predictions.h"
 #include "tests/support/support.h"
+#include "tests/synth/corpus/sample_records.h"
 
 namespace chironomia::study {
 namespace {
@@ -197,6 +200,80 @@ TEST(Baselines, SayAlwaysTheMeanOfTheTrainingRecords) {
     smiles.features[0] = "AU12";
     EXPECT_THAT(refusal_of([&] { baseline("mean", smiles, corpus); }),
                 HasSubstr("its training records have no \"AU12\"; leave out --against mean"));
+}
+
+// The people of a dyad from a frame on, AU12 alone.
+Predictions smiles_of(const DyadRecord& record, std::size_t first) {
+    Predictions all{
+        .model = "m", .corpus = "dyads", .split = "test", .features = {"AU12"}, .scale = {{0, 5}}};
+    for (const std::size_t person : {0, 1}) {
+        PredictedItem item{.id = format("{}:{}", record.id, person),
+                           .speaker = record.people[person].participant};
+        for (std::size_t t = first; t < record.frames(); ++t) {
+            const std::size_t i = t * DyadPerson::kFace + 9;
+            item.truth.push_back(record.people[person].face[i] / 5);
+            item.partner.push_back(record.people[1 - person].face[i] / 5);
+        }
+        item.prediction = item.truth;
+        all.items.push_back(std::move(item));
+    }
+    return all;
+}
+
+TEST(CheckTruth, ComparesBothPeopleOfADyad) {
+    const testing::TemporaryFolder folder;
+    const DyadRecord record = testing::sample_dyad("d1", "anna", "ben");
+    write_dyad(folder.path(), record);
+    const CorpusIndex corpus{
+        .folder = folder.path(),
+        .kind = CorpusKind::dyads,
+        .entries = {{.id = "d1", .speaker = "anna+ben", .split = Split::test, .seconds = 4}}};
+    EXPECT_THAT(check_truth(smiles_of(record, 25), corpus, "p.h5"), IsEmpty());
+    Predictions changed = smiles_of(record, 25);
+    changed.items[1].partner[7] += 0.1f;
+    EXPECT_THAT(refusal_of([&] { check_truth(changed, corpus, "p.h5"); }),
+                HasSubstr("p.h5: /truth of d1:1: partner's AU12 of frame 7 is "));
+    changed = smiles_of(record, 0);
+    std::reverse(changed.items[0].truth.begin(), changed.items[0].truth.end());
+    EXPECT_THAT(refusal_of([&] { check_truth(changed, corpus, "p.h5"); }),
+                HasSubstr("p.h5: /truth of d1:0: "));
+    changed = smiles_of(record, 50);
+    for (auto* rows : {&changed.items[0].truth, &changed.items[0].partner}) rows->front() = rows->back();
+    EXPECT_THAT(refusal_of([&] { check_truth(changed, corpus, "p.h5"); }),
+                HasSubstr("/truth of d1:0 goes on behind the last frame of its record in " +
+                          folder.path().string() + ", which has 100; give its frames in their order"));
+    Predictions open = smiles_of(record, 0);
+    open.features = {"AU25"};
+    EXPECT_THAT(check_truth(open, corpus, "p.h5"),
+                ElementsAre("p.h5: no record of " + folder.path().string() +
+                            " has AU25, so what people did there was not compared"));
+}
+
+TEST(CheckTruth, ComparesPointsThatWereSeen) {
+    const testing::TemporaryFolder folder;
+    const IntervalRecord record = testing::sample_interval("a_1", "anna");
+    write_interval(folder.path(), record);
+    CorpusIndex corpus{.folder = folder.path(),
+                       .kind = CorpusKind::intervals,
+                       .entries = {{.id = "a_1", .speaker = "anna", .split = Split::train, .seconds = 2}}};
+    write_corpus_index(corpus);
+    Predictions points{.model = "m",
+                       .corpus = "points",
+                       .split = "test",
+                       .fps = 15,
+                       .features = {"RWrist x", "RHandRoot y"},
+                       .scale = {{-100, 100}, {0, 50}}};
+    PredictedItem item{.id = "a_1>ben", .speaker = "anna", .style = "ben"};
+    for (std::size_t t = 0; t < record.frames(); ++t) {
+        const float* places = &record.pose_normalized[t * 2 * IntervalRecord::kJoints];
+        item.truth.insert(item.truth.end(), {(places[3] + 100) / 200, places[52 + 31] / 50});
+    }
+    item.prediction = item.truth;
+    points.items = {item};
+    EXPECT_THAT(check_truth(points, corpus, "p.h5"), IsEmpty());
+    points.items[0].truth[2 * 4] += 0.3f;
+    EXPECT_THAT(refusal_of([&] { check_truth(points, corpus, "p.h5"); }),
+                HasSubstr("p.h5: /truth of a_1>ben: RWrist x of frame 4 is "));
 }
 
 TEST(Published, HoldsWhatThePapersPrint) {
