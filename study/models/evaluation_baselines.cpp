@@ -85,7 +85,16 @@ const std::vector<std::string>& baseline_names() {
     return names;
 }
 
+void check_baseline(const std::string& name, const CorpusIndex& corpus) {
+    if (name != "mean" || corpus.kind != CorpusKind::intervals) return;
+    throw Error(format(
+        "{}: --against mean is made of faces, in talks and dyads, and this corpus has intervals, which "
+        "are of bodies; leave it out",
+        corpus.folder.string()));
+}
+
 Predictions baseline(const std::string& name, const Predictions& of, const CorpusIndex& corpus) {
+    check_baseline(name, corpus);
     Predictions made = name == "hold" ? held(of) : constant(of, training_means(of, corpus));
     made.model = name;
     return made;

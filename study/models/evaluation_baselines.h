@@ -12,10 +12,13 @@ namespace chironomia::study {
 // "hold", "mean"
 const std::vector<std::string>& baseline_names();
 
+// Throws Error if a baseline cannot be made of a corpus of this kind: means are those of faces.
+void check_baseline(const std::string& name, const CorpusIndex& corpus);
+
 // For the same records as `of`:
 //   hold   what the person did half a second before
 //   mean   always the mean of the corpus's training records
-// Throws Error as reading these does, or if the corpus is none of talks or dyads.
+// Throws Error as check_baseline() and reading these do, or if the training records lack a feature.
 Predictions baseline(const std::string& name, const Predictions& of, const CorpusIndex& corpus);
 
 }  // namespace chironomia::study

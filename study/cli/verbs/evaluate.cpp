@@ -295,6 +295,7 @@ void add_evaluate(CLI::App& app, std::optional<Command>& result) {
 }
 
 int run(const EvaluateCommand& command) {
+    for (const std::string& name : command.against) check_baseline(name, read_corpus_index(command.corpus));
     const std::vector<fs::path> files = predict_all(command);
     std::vector<Predictions> models;
     for (const fs::path& file : files) models.push_back(read_predictions(file));

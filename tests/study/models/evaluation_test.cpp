@@ -21,6 +21,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -200,6 +201,11 @@ TEST(Baselines, SayAlwaysTheMeanOfTheTrainingRecords) {
     smiles.features[0] = "AU12";
     EXPECT_THAT(refusal_of([&] { baseline("mean", smiles, corpus); }),
                 HasSubstr("its training records have no \"AU12\"; leave out --against mean"));
+    EXPECT_THAT(
+        refusal_of([&] { check_baseline("mean", {.folder = "poses", .kind = CorpusKind::intervals}); }),
+        EndsWith("poses: --against mean is made of faces, in talks and dyads, and this corpus has intervals, "
+                 "which are of bodies; leave it out"));
+    check_baseline("hold", {.folder = "poses", .kind = CorpusKind::intervals});
 }
 
 // The people of a dyad from a frame on, AU12 alone.
