@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/audio.h"
@@ -84,6 +85,23 @@ IntervalFrames frames_taken(const IntervalRecording& recording, const Motion& mo
     return {.first = first_frame_from(start), .last = frame_shown_at(std::min(end, shorter))};
 }
 
+// Words behind "end" need no sound; of those that have one nothing changes.
+TimedWords read_words(const IntervalRecording& recording, const Audio& sound) {
+    const double duration = sound.duration();
+    if (!recording.end) return read_timed_words(recording.words, duration);
+    TimedWords timed = read_timed_words(recording.words, std::numeric_limits<double>::infinity());
+    const auto late =
+        std::ranges::find_if(timed.words, [&](const SpokenWord& word) { return word.end > duration; });
+    if (late == timed.words.end() || late->start < *recording.end)
+        return read_timed_words(recording.words, duration);
+    timed.notes.push_back(format(
+        "{}: {} words from {:.3f} s on lie behind \"end\", {:g} s, and the sound of {:.3f} s; left out",
+        recording.words.string(), timed.words.end() - late, late->start, *recording.end, duration));
+    timed.written.resize(static_cast<std::size_t>(late - timed.words.begin()));
+    timed.words.erase(late, timed.words.end());
+    return timed;
+}
+
 class IntervalCutter {
   public:
     IntervalCutter(const IntervalRecording& recording, const ImportManifest& manifest)
@@ -92,7 +110,7 @@ class IntervalCutter {
           motion_(read_pose(recording)),
           sound_(read_audio(recording.audio)),
           frames_(frames_taken(recording, motion_, sound_, manifest.file.string())) {
-        TimedWords timed = read_timed_words(recording.words, sound_.duration());
+        TimedWords timed = read_words(recording, sound_);
         for (const auto* notes : {&motion_.notes, &timed.notes})
             cut_.notes.insert(cut_.notes.end(), notes->begin(), notes->end());
         if (auto note = note_of_ends("the pose", ends_of(motion_, sound_)); note && !recording.end)

@@ -650,6 +650,20 @@ TEST_F(IntervalImport, TakesNoPartOfARecordingTwice) {
                                                            file("pose").string() + "; take no part"));
 }
 
+TEST_F(IntervalImport, NeedsNoSoundForWordsBehindItsEnd) {
+    const std::string words = read_text(file("words.csv"));
+    write_text(file("words.csv"), words + "13.7,14.2,late\n14.3,14.5,later\n");
+    EXPECT_THAT(refusal(recording()),
+                HasSubstr("\"late\" lies from 13.700 to 14.200 s, and the sound ends at"));
+    EXPECT_THAT(refusal(with("end", 13.8)), HasSubstr("\"late\" lies from 13.700 to 14.200 s"));
+    const Outcome cut = import_all({with("end", 13)});
+    ASSERT_EQ(cut.exit_code, 0) << cut.err;
+    EXPECT_THAT(cut.out, HasSubstr("2 intervals"));
+    EXPECT_THAT(cut.err,
+                HasSubstr("words.csv: 2 words from 13.700 s on lie behind \"end\", 13 s, and the sound of "
+                          "14.000 s; left out"));
+}
+
 TEST_F(IntervalImport, LeavesNothingBehindIfTheLastRecordingIsBroken) {
     Json second = with("words", "broken.csv");
     second["id"] = "r2";
