@@ -71,6 +71,19 @@ fs::path json_of(fs::path stem) {
     return stem += ".json";
 }
 
+// A file that no training wrote is neither gone on from nor written over.
+void refuse_other_file(const fs::path& stem) {
+    const fs::path json = json_of(stem);
+    const Json found = read_json(json);
+    const Json format_of_it = found.is_object() ? found.value("format", Json()) : Json();
+    if (format_of_it.is_string() && format_of_it.get<std::string>().starts_with("chironomia checkpoint"))
+        return;
+    throw Error(
+        format("{}: it describes no checkpoint, and that of {}.safetensors needs its place; name another "
+               "checkpoint, or move this file",
+               json.string(), stem.filename().string()));
+}
+
 // What must be the same for one training to go on where another ended.
 Json identity(const TrainingTask& task, const TrainingPlan& plan, const Checkpoint& described) {
     return {{"model", described.model}, {"preset", described.preset}, {"options", described.options},
@@ -253,6 +266,7 @@ class Training {
 
     void go_on_from_file() {
         if (!fs::exists(json_of(stem_))) return;
+        refuse_other_file(stem_);
         const StoredCheckpoint found = read_checkpoint(stem_, CheckpointParts::all);
         check_same(identity(task_, plan_, described_), found.description.training.value("identity", Json()),
                    stem_);

@@ -283,6 +283,19 @@ TEST(Trainer, RefusesToGoOnWithAnotherTraining) {
                   "this one to train anew"));
 }
 
+TEST(Trainer, LeavesAnotherProgramsFileAlone) {
+    const TemporaryFolder folder;
+    ToyTask toy;
+    for (const char* other : {R"({"kind": "dyads"})", R"({"format": "chironomia corpus"})", "[1]"}) {
+        write_text(folder / "toy.json", other);
+        EXPECT_THAT(
+            testing::refusal_of([&] { train_toy(toy, toy_plan(), folder / "toy"); }),
+            HasSubstr("toy.json: it describes no checkpoint, and that of toy.safetensors needs its place; "
+                      "name another checkpoint, or move this file"));
+        EXPECT_EQ(read_text(folder / "toy.json"), other);
+    }
+}
+
 TEST(Trainer, RefusesToGoOnOverOtherRecords) {
     const TemporaryFolder folder;
     ToyTask toy;
