@@ -128,6 +128,8 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
         const SpeakerLabels speakers = labels_of(encodings.speakers);
         const ProbeSplit split = probe_split(encodings.speakers.size());
         if (split.test.empty()) continue;
+        const bool has_others = std::ranges::any_of(
+            speakers.labels, [&](std::size_t label) { return label != speakers.labels.front(); });
         const bool has_probe = std::ranges::any_of(split.train, [&](std::size_t i) {
             return speakers.labels[i] != speakers.labels[split.train.front()];
         });
@@ -138,7 +140,7 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
         for (const auto& [name, vectors] : kinds) {
             std::vector<Cell> row{encodings.model, name, vectors->count(),
                                   mean_silhouette(*vectors, speakers.labels),
-                                  neighbour_accuracy(*vectors, speakers.labels)};
+                                  has_others ? neighbour_accuracy(*vectors, speakers.labels) : std::nullopt};
             if (has_probe) {
                 const LabelProbe probe = probe_labels(*vectors, speakers.labels, split);
                 row.insert(row.end(),

@@ -28,8 +28,9 @@ StyleEncodings read_encodings(const std::filesystem::path& file, const std::stri
 
 // Of h_style, of the modalities that it is made of, and of h_content, which should not give the speaker away: the
 // silhouette of the speakers, the share of segments whose five nearest are of their speaker, and a linear probe that
-// learns from two of three segments. Of h_content the variance of h_style that the adversary explains, too. Without a
-// probe where the segments that it learns from are of one speaker; none of fewer than three segments.
+// learns from two of three segments. Of h_content the variance of h_style that the adversary explains, too. Without any
+// of these of a single speaker, and a probe where the segments that it learns from are of one; none of fewer than three
+// segments.
 analysis::Table encodings_table(const std::vector<StyleEncodings>& all);
 
 // What a classifier of styles says of a model's clips (synth/learned/styles/style_classifier.h).

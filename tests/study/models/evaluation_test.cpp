@@ -11,6 +11,7 @@
 #include "study/models/evaluation_baselines.h"
 #include "study/models/evaluation_tables.h"
 #include "study/models/recorded_rows.h"
+#include "study/models/style_maps.h"
 #include "study/published/published.h"
 #include "tests/study/sample_predictions.h"
 #include "tests/support/support.h"
@@ -319,6 +320,18 @@ TEST(EvaluationTables, ShowPublishedNumbersInColumnsOfTheirOwn) {
     EXPECT_THAT(published[0].title, HasSubstr("Table 5.8"));
     EXPECT_THAT(published[0].note, HasSubstr("Measured on other data: TEDx"));
     EXPECT_THAT(published_beside(evaluate({sample_faces("mine")})), IsEmpty());
+}
+
+// Nobody else is there to be near.
+TEST(EvaluationTables, HaveNoNeighboursOfASingleSpeaker) {
+    StyleEncodings encodings{.model = "m", .speakers = std::vector<std::string>(6, "anna")};
+    for (Vectors* vectors : {&encodings.style, &encodings.content})
+        *vectors = {.width = 1, .values = {1, 2, 3, 4, 5, 6}};
+    const Json alone = analysis::to_json(encodings_table({encodings}));
+    EXPECT_TRUE(alone[0]["neighbours"].is_null());
+    EXPECT_TRUE(alone[0]["silhouette"].is_null());
+    encodings.speakers[5] = "ben";
+    EXPECT_TRUE(analysis::to_json(encodings_table({encodings}))[0]["neighbours"].is_number());
 }
 
 TEST(EvaluationTables, ShowPeopleAboveModels) {
