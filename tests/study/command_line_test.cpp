@@ -237,7 +237,8 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--motion-fps", "-1"},
          "\"-1\" is no frame rate; write a number above 0 such as 15"},
         {{"render", "--motion", "a", "--motion", "b", "--motion", "c", "--out", "a.mp4"},
-         "--motion: is given 3 times, a clip shows at most 2 people"},
+         "--motion: is given 3 times (a, b, c), a clip shows at most 2 people; an option of several values is written "
+         "before each of them"},
         {{"render", "--motion", "a", "--avatar", "b", "--avatar", "c", "--out", "a.mp4"},
          "--avatar: is given 2 times, but --motion once; give it once or as often as --motion"},
         {{"render", "--motion", "a", "--motion", "b", "--up", "x", "--up", "y", "--up", "z", "--out",

@@ -95,7 +95,11 @@ std::vector<Performer> PeopleOptions::make() const {
     const std::size_t count = counted->texts.size();
     if (count > kMostPeople) {
         throw CLI::ValidationError(
-            counted->name, format("is given {} times, a clip shows at most {} people", count, kMostPeople));
+            counted->name,
+            format(
+                "is given {} times ({}), a clip shows at most {} people; an option of several values is written "
+                "before each of them",
+                count, join(counted->texts), kMostPeople));
     }
     std::vector<Performer> people(std::max<std::size_t>(count, 1));
     for (const Given& given : given_) distribute(given, *counted, people);
