@@ -9,6 +9,7 @@ extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/dict.h>
+#include <libavutil/display.h>
 #include <libavutil/pixdesc.h>
 }
 
@@ -127,7 +128,32 @@ bool is_constant(const AVStream& stream, const Rate& fps, const std::vector<Pack
     return true;
 }
 
-PictureInfo describe_picture(const AVStream& stream, const std::vector<Packet>& packets) {
+// (frames)
+std::vector<double> times_of(const AVStream& stream, const std::vector<Packet>& packets) {
+    std::vector<double> times;
+    for (const Packet& packet : packets)
+        times.push_back((static_cast<double>(packet.time) - static_cast<double>(packets[0].time)) *
+                        av_q2d(stream.time_base));
+    return times;
+}
+
+std::string pixel_shape_of(AVFormatContext& container, AVStream& stream) {
+    const AVRational shape = av_guess_sample_aspect_ratio(&container, &stream, nullptr);
+    return shape.num > 0 && shape.den > 0 ? format("{}:{}", shape.num, shape.den) : "1:1";
+}
+
+// How players are asked to show the pictures.
+void describe_display(const AVStream& stream, PictureInfo& picture) {
+    const std::int32_t* matrix = display_matrix(stream);
+    if (matrix == nullptr) return;
+    const auto at = [matrix](int i) { return static_cast<double>(matrix[i]); };
+    picture.is_mirrored = at(0) * at(4) - at(1) * at(3) < 0;
+    const double turn = -av_display_rotation_get(matrix);
+    if (std::isfinite(turn)) picture.turn_deg = std::fmod(std::round(10 * turn) / 10 + 360, 360);
+}
+
+PictureInfo describe_picture(AVFormatContext& container, AVStream& stream,
+                             const std::vector<Packet>& packets) {
     const AVCodecParameters& codec = *stream.codecpar;
     const char* profile = avcodec_profile_name(codec.codec_id, codec.profile);
     PictureInfo picture{
@@ -135,14 +161,19 @@ PictureInfo describe_picture(const AVStream& stream, const std::vector<Packet>& 
         .profile = profile ? profile : "",
         .pixel_format = text_of(av_get_pix_fmt_name(static_cast<AVPixelFormat>(codec.format))),
         .colours = text_of(av_color_space_name(codec.color_space)),
+        .transfer = text_of(av_color_transfer_name(codec.color_trc)),
+        .primaries = text_of(av_color_primaries_name(codec.color_primaries)),
         .setup = sha256(bytes_of(codec.extradata, codec.extradata_size)),
         .width = codec.width,
         .height = codec.height,
+        .pixel_shape = pixel_shape_of(container, stream),
         .fps = {std::max(1, stream.avg_frame_rate.num), std::max(1, stream.avg_frame_rate.den)},
         .frames = packets.size(),
+        .times_s = times_of(stream, packets),
         .start_s = start_of(stream, packets),
         .duration_s = duration_of(stream, packets)};
     picture.constant_rate = is_constant(stream, picture.fps, packets);
+    describe_display(stream, picture);
     return picture;
 }
 
@@ -194,17 +225,18 @@ ClipInfo read_clip_info(const fs::path& file) {
                   .sound = {},
                   .tags = all_tags(*container)};
     info.index_first = std::string_view(info.container).starts_with("mov") && has_index_first(file);
-    const AVStream* picture = find_stream(*container, AVMEDIA_TYPE_VIDEO);
+    AVStream* picture = find_stream(*container, AVMEDIA_TYPE_VIDEO);
     const AVStream* sound = find_stream(*container, AVMEDIA_TYPE_AUDIO);
     if (!picture && !sound) {
         throw Error(
             format("{}: holds neither pictures nor sound, or is cut off; give a whole clip", file.string()));
     }
     const std::vector<std::vector<Packet>> packets = read_packets(*container, file);
-    for (const AVStream* stream : {picture, sound}) {
+    for (const AVStream* stream : {static_cast<const AVStream*>(picture), sound}) {
         if (stream) expect_whole(*stream, packets[static_cast<size_t>(stream->index)], file);
     }
-    if (picture) info.picture = describe_picture(*picture, packets[static_cast<size_t>(picture->index)]);
+    if (picture)
+        info.picture = describe_picture(*container, *picture, packets[static_cast<size_t>(picture->index)]);
     if (sound) info.sound = describe_sound(*sound, packets[static_cast<size_t>(sound->index)]);
     if (info.picture) info.duration_s = info.picture->start_s + info.picture->duration_s;
     if (info.sound) info.duration_s = std::max(info.duration_s, info.sound->start_s + info.sound->duration_s);

@@ -23,13 +23,19 @@ struct PictureInfo {
     std::string codec;         // "h264"
     std::string profile;       // "High"; empty if the codec has none
     std::string pixel_format;  // "yuv420p"
-    std::string colours;       // "bt709"; "unknown" if the file does not say
+    std::string colours;       // matrix: "bt709"; "unknown" if the file does not say
+    std::string transfer;      // as above
+    std::string primaries;     // as above
     std::string setup;         // SHA-256 of the decoder's setup data, which depends on the encoder's settings
     int width = 0;             // [px]
     int height = 0;
+    std::string pixel_shape = "1:1";  // width to height of a pixel
+    double turn_deg = 0;              // by which players turn the pictures, clockwise, 0 to 360
+    bool is_mirrored = false;         // by players, besides
     Rate fps;
     bool constant_rate = false;  // every frame lasts equally long
     size_t frames = 0;
+    std::vector<double> times_s;  // (frames) when each is shown, counted from the first
     double start_s = 0;
     double duration_s = 0;
 };

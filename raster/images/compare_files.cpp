@@ -19,6 +19,9 @@ namespace {
 
 constexpr double kMostApart = 0.002;  // of beginnings [s]: WebM counts milliseconds
 
+constexpr double kMostLate = 0.1;  // of time stamps [frames]
+constexpr double kClock = 0.0011;  // of WebM, with what is rounded [s]
+
 // Frames one after the other, from wherever they come.
 class FrameSource {
   public:
@@ -61,6 +64,60 @@ class FrameSource {
     size_t done_ = 0;
 };
 
+// Two files with what players make of them.
+struct TwoClips {
+    const FrameSource& a;
+    const FrameSource& b;
+
+    const PictureInfo& picture_a() const { return *a.clip()->picture; }
+    const PictureInfo& picture_b() const { return *b.clip()->picture; }
+};
+
+void expect_same_times(const TwoClips& clips) {
+    const auto &times_a = clips.picture_a().times_s, &times_b = clips.picture_b().times_s;
+    const double most = std::max(kMostLate * clips.picture_a().fps.seconds(1), kClock);
+    for (size_t i = 0; i < times_a.size(); ++i) {
+        if (std::abs(times_a[i] - times_b[i]) <= most) continue;
+        throw DifferentForm(format(
+            "{}: shows frame {} after {:.3f} s, {} after {:.3f} s; write both with the same time stamps",
+            clips.a.path().string(), i, times_a[i], clips.b.path().string(), times_b[i]));
+    }
+}
+
+std::string display_of(const PictureInfo& picture) {
+    return format("{:g} degrees{}", picture.turn_deg, picture.is_mirrored ? " and mirrored" : "");
+}
+
+// What the file does not say is taken as players take it, as the matrix is: BT.709, of small pictures BT.601, which
+// has the transfer of BT.709.
+std::string colour_tags_of(const PictureInfo& picture) {
+    constexpr const char *kUnknown = "unknown", *kOld = "smpte170m", *kNew = "bt709";
+    const bool is_old = picture.colours == kUnknown ? picture.height < 720
+                                                    : picture.colours == kOld || picture.colours == "bt470bg";
+    const bool same_transfer = picture.transfer == kUnknown || picture.transfer == kOld;
+    return format("transfer {} and primaries {}", same_transfer ? kNew : picture.transfer,
+                  picture.primaries != kUnknown ? picture.primaries
+                  : is_old                      ? kOld
+                                                : kNew);
+}
+
+void expect_same_display(const TwoClips& clips) {
+    const std::string a = clips.a.path().string(), b = clips.b.path().string();
+    const PictureInfo &picture_a = clips.picture_a(), &picture_b = clips.picture_b();
+    if (picture_a.pixel_shape != picture_b.pixel_shape) {
+        throw DifferentForm(format("{}: has pixels of {}, {} of {}; write both with pixels of one shape", a,
+                                   picture_a.pixel_shape, b, picture_b.pixel_shape));
+    }
+    if (display_of(picture_a) != display_of(picture_b)) {
+        throw DifferentForm(format("{}: is to be shown turned by {}, {} by {}; write both to be shown alike",
+                                   a, display_of(picture_a), b, display_of(picture_b)));
+    }
+    if (colour_tags_of(picture_a) != colour_tags_of(picture_b)) {
+        throw DifferentForm(format("{}: has colours of {}, {} of {}; write both with the same tags", a,
+                                   colour_tags_of(picture_a), b, colour_tags_of(picture_b)));
+    }
+}
+
 void expect_comparable(const FrameSource& a, const FrameSource& b) {
     if (a.count() != b.count()) {
         throw DifferentForm(format("{}: has {} frames, {} has {}; compare equally many", a.path().string(),
@@ -73,6 +130,8 @@ void expect_comparable(const FrameSource& a, const FrameSource& b) {
         throw DifferentForm(format("{}: has {} frames per second, {} has {}; render both at one rate",
                                    a.path().string(), to_text(rate_a), b.path().string(), to_text(rate_b)));
     }
+    expect_same_times({a, b});
+    expect_same_display({a, b});
     const auto sound_of = [](const ClipInfo& clip) {
         return clip.sound ? format("sound of {} Hz, {} channels", clip.sound->rate, clip.sound->channels)
                           : std::string("no sound");

@@ -40,7 +40,8 @@ struct FileComparison {
     bool within_limits = true;            // of all frames and the sound
 };
 
-// Both can be read, but are not of one form: sizes, numbers of frames, rates, or the sound or its beginning differ.
+// Both can be read, but are not of one form: sizes, numbers of frames, rates, time stamps, the shape of pixels, how
+// players turn them, transfer or primaries of their colours, or the sound or its beginning differ.
 class DifferentForm : public Error {
   public:
     using Error::Error;

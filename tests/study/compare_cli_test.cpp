@@ -10,6 +10,7 @@
 #include "core/files/json.h"
 #include "core/text.h"
 #include "raster/images/image_file.h"
+#include "tests/raster/media_support.h"
 #include "tests/study/process.h"
 #include "tests/support/support.h"
 
@@ -108,6 +109,68 @@ TEST_F(CompareCli, AcceptsResultsAsReferences) {
     EXPECT_EQ(compare({"--update"}).exit_code, 3);
     fs::remove(folder_ / "res/b.png");
     EXPECT_EQ(Json::parse(compare({"--update", "--json"}).out)["removed"], 1);
+}
+
+// Clips of the same pictures that players show otherwise.
+class ComparePlayback : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        testing::output_of(
+            "ffmpeg -nostdin -v error -f lavfi -i testsrc=s=64x48:r=10:d=1 -c:v libx264 -bf 0 "
+            "-pix_fmt yuv420p -colorspace bt709 " +
+            testing::quoted(a()));
+    }
+    // What compare says of the clip and a copy that was made with these options.
+    Outcome compare_copy(const std::string& options) const {
+        testing::output_of("ffmpeg -nostdin -v error -y -i " + testing::quoted(a()) + " -c copy " + options +
+                           " " + testing::quoted(b()));
+        return run_chironomia({"compare", "--quiet", a().string(), b().string()});
+    }
+    std::string info() const { return run_chironomia({"info", b().string()}).out; }
+    void expect_difference(const std::string& options, const std::string& says) const {
+        const Outcome outcome = compare_copy(options);
+        EXPECT_EQ(outcome.exit_code, 1) << options;
+        EXPECT_THAT(outcome.out, HasSubstr(says));
+    }
+    fs::path a() const { return folder_ / "a.mp4"; }
+    fs::path b() const { return folder_ / "b.mp4"; }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(ComparePlayback, FindsFramesAtOtherTimes) {
+    expect_difference("-bsf:v \"setts=ts=TS+if(eq(N\\,4)\\,0.02/TB\\,0)\"",
+                      "a.mp4: shows frame 4 after 0.400 s, " + b().string() +
+                          " after 0.420 s; write both with the same time stamps");
+    EXPECT_EQ(compare_copy("-bsf:v \"setts=ts=TS+if(eq(N\\,4)\\,0.005/TB\\,0)\"").exit_code, 0)
+        << "what clocks of files round is no difference";
+}
+
+TEST_F(ComparePlayback, FindsAnotherShapeOfPixels) {
+    expect_difference(
+        "-bsf:v h264_metadata=sample_aspect_ratio=2/1 -aspect 8/3",
+        "a.mp4: has pixels of 1:1, " + b().string() + " of 2:1; write both with pixels of one shape");
+    EXPECT_THAT(info(), HasSubstr("\nshown      pixels of 2:1\n"));
+}
+
+TEST_F(ComparePlayback, FindsPicturesThatAreTurned) {
+    expect_difference("-metadata:s:v:0 rotate=180", "a.mp4: is to be shown turned by 0 degrees, " +
+                                                        b().string() +
+                                                        " by 180 degrees; write both to be shown alike");
+    EXPECT_THAT(info(), HasSubstr("\nshown      turned by 180 degrees\n"));
+}
+
+TEST_F(ComparePlayback, FindsOtherTagsOfColour) {
+    expect_difference(
+        "-bsf:v h264_metadata=colour_primaries=9:transfer_characteristics=13:matrix_coefficients=1",
+        "a.mp4: has colours of transfer bt709 and primaries bt709, " + b().string() +
+            " of transfer iec61966-2-1 and primaries bt2020; write both with the same tags");
+    EXPECT_THAT(info(), HasSubstr("\ncolours    transfer iec61966-2-1, primaries bt2020\n"));
+    EXPECT_EQ(compare_copy(
+                  "-bsf:v h264_metadata=colour_primaries=1:transfer_characteristics=1:matrix_coefficients=1")
+                  .exit_code,
+              0)
+        << "what is not tagged is taken as players take it";
 }
 
 // A YAML block of the document: every command that it runs, and every file that it hands on.

@@ -188,6 +188,27 @@ std::string animations_text(const Json& description) {
     return labelled_list("animations", lines);
 }
 
+// What is not as usual, or need not be there.
+void add_display(const PictureInfo& picture, Json& json) {
+    if (picture.pixel_shape != "1:1") json["pixel_shape"] = picture.pixel_shape;
+    if (picture.turn_deg != 0) json["turn_deg"] = picture.turn_deg;
+    if (picture.is_mirrored) json["mirrored"] = true;
+    if (picture.transfer != "unknown") json["transfer"] = picture.transfer;
+    if (picture.primaries != "unknown") json["primaries"] = picture.primaries;
+}
+
+// A line for how it is shown and one for its colours, where there is something to say.
+std::string display_text(const PictureInfo& picture) {
+    std::vector<std::string> shown, colours;
+    if (picture.pixel_shape != "1:1") shown.push_back(format("pixels of {}", picture.pixel_shape));
+    if (picture.turn_deg != 0) shown.push_back(format("turned by {:g} degrees", picture.turn_deg));
+    if (picture.is_mirrored) shown.emplace_back("mirrored");
+    if (picture.transfer != "unknown") colours.push_back(format("transfer {}", picture.transfer));
+    if (picture.primaries != "unknown") colours.push_back(format("primaries {}", picture.primaries));
+    return (shown.empty() ? "" : format("shown      {}\n", join(shown))) +
+           (colours.empty() ? "" : format("colours    {}\n", join(colours)));
+}
+
 Json describe_clip(const ClipInfo& clip) {
     Json json;
     json["container"] = clip.container;
@@ -204,6 +225,7 @@ Json describe_clip(const ClipInfo& clip) {
                            {"constant_rate", picture->constant_rate},
                            {"frames", picture->frames},
                            {"duration_s", picture->duration_s}};
+        add_display(*picture, json["picture"]);
     }
     if (const auto& sound = clip.sound) {
         json["sound"] = {{"codec", sound->codec},
@@ -235,6 +257,7 @@ std::string clip_text(const ClipInfo& clip) {
                        picture->profile, picture->pixel_format, picture->colours, picture->width,
                        picture->height, to_text(picture->fps), picture->constant_rate ? " constant" : "",
                        picture->frames, picture->duration_s);
+        text += display_text(*picture);
     }
     if (const auto& sound = clip.sound) {
         text += format("sound      {}, {} Hz, {} channels, {:.3f} s\n", sound->codec, sound->rate,
