@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_length.h"
+#include "raster/ffmpeg/sound.h"
 #include "study/clip/loudness.h"
 #include "study/clip/voices.h"
 
@@ -76,13 +77,23 @@ Soundtrack soundtrack_of_voices(const Performer& left_person, const Performer& r
     return track;
 }
 
+std::string name_of_sound(const ClipJob& job) {
+    return job.audio ? job.audio->string() : "the voices";
+}
+
+double largest_sample(const Audio& sound) {
+    double peak = 0;
+    for (const float sample : sound.samples) peak = std::max(peak, std::abs(static_cast<double>(sample)));
+    return peak;
+}
+
 // A sound that was asked for in part is as long as the picture.
 void fit_to_picture(Soundtrack& track, const ClipJob& job, double seconds) {
     const double missing = seconds - track.sound->duration();
     track.sound = trim_to(*track.sound, seconds);
     const bool is_meant = job.at_least && missing < 0;  // speech of another clip, which is longer
     if (is_meant || std::abs(missing) <= job.fps.seconds(1)) return;
-    const std::string name = job.audio ? job.audio->string() : "the voices";
+    const std::string name = name_of_sound(job);
     track.warnings.push_back(
         missing > 0
             ? format("{}: there is sound for {:.3f} s of {:.3f} s; {:.3f} s of silence are added", name,
@@ -90,6 +101,17 @@ void fit_to_picture(Soundtrack& track, const ClipJob& job, double seconds) {
             : format(
                   "{}: the sound lasts {:.3f} s and the picture {:.3f} s; {:.3f} s are faded out and cut off",
                   name, seconds - missing, seconds, -missing));
+}
+
+// What is above full scale would be clipped.
+void keep_in_scale(Soundtrack& track, const ClipJob& job) {
+    Audio& sound = *track.sound;
+    const double peak = largest_sample(resample(sound, sound.rate));  // mixed down as the encoder does
+    if (peak <= 1) return;
+    for (float& sample : sound.samples) sample = static_cast<float>(sample / peak);
+    track.warnings.push_back(format("{}: too loud by {:.2f} dB{}; made quieter by that", name_of_sound(job),
+                                    20 * std::log10(peak),
+                                    sound.channels > 2 ? " as its channels are mixed down to two" : ""));
 }
 
 // The sound that belongs to a range of frames, as long as they are.
@@ -142,13 +164,13 @@ void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const Fra
         track.sound = ends_early ? trim_to(*track.sound, seconds) : fit_to(*track.sound, seconds);
     }
     if (job.spoken) track.sound = speak_over(*track.sound, *job.spoken);
+    if (!job.loudness) keep_in_scale(track, job);
     track.sound = part_of(*track.sound, range, job.fps);
     if (!job.loudness) return;
     LoudSound loud = bring_to(*track.sound, *job.loudness);
     track.sound = std::move(loud.sound);
-    if (!loud.warning.empty())
-        track.warnings.push_back(
-            format("{}: {}", job.audio ? job.audio->string() : "the voices", loud.warning));
+    if (!loud.warning.empty()) track.warnings.push_back(format("{}: {}", name_of_sound(job), loud.warning));
+    keep_in_scale(track, job);
 }
 
 }  // namespace chironomia::study

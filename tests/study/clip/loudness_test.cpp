@@ -2,12 +2,16 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/files/wav_file.h"
 #include "core/random.h"
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "study/clip/soundtrack.h"
 #include "tests/raster/media_support.h"
+#include "tests/study/process.h"
 #include "tests/study/sounds.h"
 #include "tests/study/tiny_maker.h"
 #include "tests/support/support.h"
@@ -24,6 +28,8 @@ using ::testing::StartsWith;
 using testing::TemporaryFolder;
 
 const std::string kSpeech = (source_dir() / "assets/samples/speech/two-ways.wav").string();
+
+const std::string kMotion = (source_dir() / "assets/samples/expressive/two-ways.bvh").string();
 
 Audio joined(const Audio& a, const Audio& b) {
     Audio all = a;
@@ -97,6 +103,53 @@ TEST(MeasureLoudness, AgreesWithAnotherMeterOnSpeech) {
         EXPECT_NEAR(loudness.integrated.value(), number_after(said, "I:"), 0.11) << said;
         EXPECT_NEAR(loudness.true_peak, number_after(said, "Peak:"), 0.21);
     }
+}
+
+class FullScale : public ::testing::Test {
+  protected:
+    testing::Outcome render(const Audio& sound, const std::vector<std::string>& more = {}) {
+        const std::string file = (folder_ / "sound.wav").string();
+        write_wav(file, sound);
+        std::vector<std::string> words = {"render",  kMotion, "--avatar", "stick",   "--size", "64x64",
+                                          "--quiet", "--cut", "0:1",      "--audio", file};
+        words.insert(words.end(), more.begin(), more.end());
+        if (std::find(more.begin(), more.end(), "--out") == more.end())
+            words.insert(words.end(), {"--out", clip().string()});
+        return testing::run_chironomia(words);
+    }
+    std::filesystem::path clip() const { return folder_ / "clip.mp4"; }
+    double peak() const {
+        double highest = 0;
+        for (const float sample : read_audio(clip()).samples)
+            highest = std::max(highest, std::abs(static_cast<double>(sample)));
+        return highest;
+    }
+
+    TemporaryFolder folder_;
+};
+
+TEST_F(FullScale, IsKeptByOneSoundThatIsTooLoud) {
+    const testing::Outcome outcome = render(sine({.seconds = 1, .peak = 1.5}));
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err,
+              (folder_ / "sound.wav").string() + ": too loud by 3.52 dB; made quieter by that\n");
+    EXPECT_NEAR(peak(), 1, 0.06);
+}
+
+TEST_F(FullScale, IsKeptWhereChannelsAreMixedDown) {
+    for (const int channels : {4, 6}) {
+        const testing::Outcome outcome = render(sine({.seconds = 1, .peak = 0.9, .channels = channels}));
+        EXPECT_THAT(outcome.err,
+                    HasSubstr(" dB as its channels are mixed down to two; made quieter by that\n"));
+        EXPECT_NEAR(peak(), 1, 0.06) << channels;
+    }
+}
+
+TEST_F(FullScale, LeavesOtherSoundsAsTheyAre) {
+    EXPECT_EQ(render(sine({.seconds = 1, .peak = 1})).err, "");
+    EXPECT_NEAR(peak(), 1, 0.06);
+    EXPECT_EQ(render(sine({.seconds = 1, .peak = 1.5}), {"--loudness", "-23"}).err, "")
+        << "it has its loudness from elsewhere";
 }
 
 TEST(BringTo, MakesSpeechAsLoudAsAsked) {
