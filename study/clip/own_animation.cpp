@@ -24,7 +24,7 @@ const Animation* find_animation(const AnimatedScene& file, const std::string& as
 
 std::size_t count_frames(const AnimatedScene& file, const Animation& animation, double fps) {
     const Avatar& scene = file.scene;
-    const double frames = std::max(1.0, std::round(animation.seconds * fps));
+    const double frames = std::round(animation.seconds * fps) + 1;  // the last key is a frame, too
     const auto nodes = static_cast<double>(scene.skeleton.joints.size() + scene.rest_morph_weights.size());
     const double most = std::floor(kMostTransforms / nodes);
     if (frames <= most) return static_cast<std::size_t>(frames);

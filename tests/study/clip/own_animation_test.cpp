@@ -8,6 +8,7 @@
 
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/files/wav_file.h"
 #include "core/hash.h"
 #include "core/render/camera.h"
 #include "core/text.h"
@@ -17,6 +18,7 @@
 #include "study/clip/stage.h"
 #include "tests/skinning/gltf/gltf_builder.h"
 #include "tests/study/process.h"
+#include "tests/study/sounds.h"
 #include "tests/support/support.h"
 
 namespace chironomia::study {
@@ -68,14 +70,14 @@ TEST(PlayOwnAnimation, LastsAsLongAsTheAnimation) {
     const TemporaryFolder folder;
     sliding_file().write_glb(folder / "x.glb");
     ClipJob job = job_of(folder / "x.glb");
-    EXPECT_EQ(play(job).fit.poses.size(), 60u);
+    EXPECT_EQ(play(job).fit.poses.size(), 61u) << "the last key is a frame, too";
     job.fps = {12, 1};
     const Performance slow = play(job);
-    ASSERT_EQ(slow.fit.poses.size(), 24u);
+    ASSERT_EQ(slow.fit.poses.size(), 25u);
     EXPECT_FLOAT_EQ(slow.fit.poses[6].joints[0].translation.x, 1) << "half a second of 2 m a second";
     EXPECT_FLOAT_EQ(slow.boxes[6].low.x, 1);
     EXPECT_FLOAT_EQ(slow.boxes[6].high.x, 2);
-    EXPECT_FLOAT_EQ(around(slow.boxes).high.x, 1 + 4 * 23 / 24.0f);
+    EXPECT_FLOAT_EQ(around(slow.boxes).high.x, 1 + 4);
     EXPECT_EQ(slow.boxes[6].high.y, 1);
 }
 
@@ -83,14 +85,14 @@ TEST(PlayOwnAnimation, ChoosesByNameOrNumber) {
     const GltfBuilder file = sliding_file();
     for (const char* asked : {"rise", "1"}) {
         const Performance rising = play(file, asked);
-        EXPECT_EQ(rising.fit.poses.size(), 30u) << asked;
+        EXPECT_EQ(rising.fit.poses.size(), 31u) << asked;
         EXPECT_THAT(rising.notes, ::testing::ElementsAre("animation \"rise\", one of 2, 1.000 s"));
     }
-    EXPECT_EQ(play(file, "0").fit.poses.size(), 60u);
+    EXPECT_EQ(play(file, "0").fit.poses.size(), 61u);
     // A name goes before a number.
     GltfBuilder named = sliding_file();
     named.json["animations"][1]["name"] = "0";
-    EXPECT_EQ(play(named, "0").fit.poses.size(), 30u);
+    EXPECT_EQ(play(named, "0").fit.poses.size(), 31u);
 }
 
 TEST(PlayOwnAnimation, RefusesAnAnimationThatIsNotThere) {
@@ -123,7 +125,7 @@ TEST(PlayOwnAnimation, RefusesWhatCannotBeShown) {
     add_animation(endless, {.times = {0, 1e7f}});
     EXPECT_THAT(
         refusal_of([&] { play(endless); }),
-        HasSubstr("x.glb: animation \"move\" lasts 10000000.000 s, which is 300000000 frames; of its 1 "
+        HasSubstr("x.glb: animation \"move\" lasts 10000000.000 s, which is 300000001 frames; of its 1 "
                   "nodes and morphs at most 20000000 frames can be shown; shorten it, or choose a lower "
                   "--fps"));
     GltfBuilder far = testing::triangle_file();
@@ -217,7 +219,7 @@ TEST(MakeStage, PutsTheCameraOfASceneFileWhereItSaysInTheFilesOwnMetres) {
     // By trigonometry: at 8 m, half the picture is 8 tan(11 degrees) high and 4/3 of that wide.
     EXPECT_NEAR(pixel.x, 80 + 80 * 2 / (8 * std::tan(radians(11.0f)) * 4 / 3), 0.05);
     // Its middle leaves the picture on the right when it has slid 2.07 - 0.5 m, after 0.79 s.
-    EXPECT_EQ(frames_outside(stage, std::span(&performance, 1), 0).figure, 36u);
+    EXPECT_EQ(frames_outside(stage, std::span(&performance, 1), 0).figure, 37u);
     // Where its last pose is held it stays outside.
     const std::size_t all = performance.fit.poses.size();
     const FramesOutside held =
@@ -242,13 +244,41 @@ TEST(OwnAnimationCli, PlaysAFileThatIsNoHumanoid) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     const Json info = Json::parse(run_chironomia({"info", (folder / "clip.mp4").string(), "--json"}).out);
-    EXPECT_EQ(info.at("picture").at("frames"), 60);
-    EXPECT_EQ(info.at("picture").at("duration_s"), 2.0);
+    EXPECT_EQ(info.at("picture").at("frames"), 61);
+    EXPECT_NEAR(info.at("picture").at("duration_s"), 61 / 30.0, 1e-3);
     const Json report = read_json(folder / "report.json");
-    EXPECT_EQ(report.at("frames"), 60);
+    EXPECT_EQ(report.at("frames"), 61);
     EXPECT_EQ(report.at("motions")[0].at("detected")[0], "animation \"slide\", one of 2, 2.000 s");
     EXPECT_TRUE(report.at("motions")[0].at("fit").is_null());
     EXPECT_EQ(report.at("recipe").at("performers")[0].at("animation"), "");
+}
+
+// What was baked from a motion lasts as long as the motion, with its own rate and with another.
+TEST(OwnAnimationCli, ABakedMotionLastsAsLongAsTheMotion) {
+    const TemporaryFolder folder;
+    const std::string motion = testing::test_file("tests/fixtures/gestures/beats.bvh").string();
+    const fs::path baked = folder / "baked.glb", clip = folder / "clip.mp4";
+    ASSERT_EQ(run_chironomia({"convert", motion, "--avatar", "mannequin", "--out", baked.string()}).exit_code,
+              0);
+    const auto frames = [&](const std::vector<std::string>& words) {
+        EXPECT_EQ(run_chironomia(words).exit_code, 0);
+        return Json::parse(run_chironomia({"info", clip.string(), "--json"}).out)["picture"]["frames"];
+    };
+    for (const char* fps : {"30", "25"}) {
+        EXPECT_EQ(frames(render(baked, clip, {"--fps", fps})),
+                  frames(render("mannequin", clip, {"--motion", motion, "--fps", fps})))
+            << fps;
+    }
+}
+
+TEST(OwnAnimationCli, HoldsItsLastPoseUntilTheSoundEnds) {
+    const TemporaryFolder folder;
+    sliding_file().write_glb(folder / "x.glb");
+    write_wav(folder / "s.wav", testing::sine({.seconds = 3}));
+    const Outcome outcome = run_chironomia(
+        render(folder / "x.glb", folder / "clip.mp4", {"--audio", (folder / "s.wav").string()}));
+    EXPECT_EQ(outcome.err,
+              "the motion lasts 2.033 s and the sound 3.000 s; the last pose is held for 0.967 s\n");
 }
 
 TEST(OwnAnimationCli, GivesTheSameBytesForAnyThreadsAndBothLibraries) {
@@ -290,7 +320,7 @@ TEST(OwnAnimationCli, WarnsOfAModelThatLeavesTheScene) {
         render(folder / "x.glb", folder / "clip.mp4", {"--scene", (folder / "scene.json").string()}));
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.err, (folder / "x.glb").string() +
-                               ": the middle of the model is outside the picture in 36 of 60 frames; let "
+                               ": the middle of the model is outside the picture in 37 of 61 frames; let "
                                "--scene object follow its size, or choose a wider scene\n");
 }
 
