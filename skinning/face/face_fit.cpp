@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/error.h"
+#include "core/text.h"
 #include "skinning/signal/resample.h"
 
 namespace chironomia {
@@ -59,6 +61,16 @@ FaceFit fit_motion_and_face(const BodyAndFace& motions, const Avatar& avatar, co
     result.fit.poses = std::move(faced.poses);
     result.face = std::move(faced.report);
     return result;
+}
+
+void refuse_options_of_faces(const FaceOptions& options, const std::filesystem::path& motion) {
+    const char* option = !options.gains.empty()              ? "--face-gain"
+                         : options.head != HeadTurn::replace ? "--face-head"
+                                                             : nullptr;
+    if (!option) return;
+    throw Error(
+        format("{}: {} was set, but no face comes with the motion; leave it out, or give one with --face",
+               motion.string(), option));
 }
 
 }  // namespace chironomia

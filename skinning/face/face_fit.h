@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 
 #include "core/body/motion.h"
@@ -30,5 +31,8 @@ struct BodyAndFace {
 // the body it stands relaxed. Throws Error as fit_motion.
 FaceFit fit_motion_and_face(const BodyAndFace& motions, const Avatar& avatar, const FitOptions& options,
                             const FaceOptions& face_options);
+
+// Throws Error if strengths or a head turn were chosen, for a motion that comes without a face.
+void refuse_options_of_faces(const FaceOptions& options, const std::filesystem::path& motion);
 
 }  // namespace chironomia

@@ -88,6 +88,7 @@ Motion motion_of_talkshow(std::vector<NumpyArray> arrays, const fs::path& file, 
 struct Written {
     Motion motion;  // in the file's own axes and unit
     FileAxes axes{};
+    bool takes_names = false;  // from a map
 };
 
 // The format is found by the first bytes.
@@ -95,7 +96,8 @@ Written read_as_written(const fs::path& file, const std::vector<std::byte>& byte
     const std::string_view text =
         without_byte_order_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     const auto named = [&](KeypointData data) {
-        return name_keypoints(std::move(data), hints.fps, hints.name_map);
+        return Written{.motion = name_keypoints(std::move(data), hints.fps, hints.name_map),
+                       .takes_names = true};
     };
     const auto gltf = [&] {
         return Written{read_gltf_motion(file, hints.fps, hints.animation), {.up = UpAxis::y}};
@@ -110,24 +112,24 @@ Written read_as_written(const fs::path& file, const std::vector<std::byte>& byte
             array.name = "poses";
             return {motion_of_smpl({array}, file.string(), hints.fps), {.is_body_model = true}};
         }
-        return {named(read_npy_keypoints(file, array))};
+        return named(read_npy_keypoints(file, array));
     }
     if (is_zip(bytes)) {
         const std::vector<NumpyArray> arrays = parse_npz(bytes, file.string());
         if (std::ranges::any_of(arrays, is_talkshow)) return {motion_of_talkshow(arrays, file, hints.fps)};
         if (holds_smpl(arrays))
             return {motion_of_smpl(arrays, file.string(), hints.fps), {.is_body_model = true}};
-        return {named(keypoints_of_arrays(arrays, file.string()))};
+        return named(keypoints_of_arrays(arrays, file.string()));
     }
     if (text.starts_with("glTF")) return gltf();
     if (begins_with_word(text, "{") || begins_with_word(text, "[")) {
         const Json json = is_json_lines(text) ? parse_json_lines(text, file) : read_json(file);
         if (json.is_object() && json.contains("asset")) return gltf();
         if (holds_mediapipe(json)) return {motion_of_mediapipe(json, file.string(), hints.fps)};
-        if (holds_people(json)) return {named(people_of_json(json, file.string()))};
+        if (holds_people(json)) return named(people_of_json(json, file.string()));
         if (holds_arkit(json)) return {face_of_arkit_json(json, file.string(), hints.fps)};
-        if (holds_bodies(json)) return {named(bodies_of_json(json, file.string()))};
-        return {named(read_json_keypoints(file, json))};
+        if (holds_bodies(json)) return named(bodies_of_json(json, file.string()));
+        return named(read_json_keypoints(file, json));
     }
     if (trim(text).empty()) throw Error(format("{}: the file is empty; a motion is expected", file.string()));
     if (to_lower(file.extension().string()) == ".bvh") {
@@ -136,7 +138,7 @@ Written read_as_written(const fs::path& file, const std::vector<std::byte>& byte
     }
     if (looks_like_table(text)) {
         if (is_face_table(text, file.string())) return {read_face_table(text, file.string(), hints.fps)};
-        return {named(keypoints_of_csv(text, file.string()))};
+        return named(keypoints_of_csv(text, file.string()));
     }
     throw Error(format(
         "{}: this is no motion that can be read; BVH, keypoints as .npz, .npy, .csv or .json, faces of "
@@ -167,6 +169,7 @@ Motion read_ours(const Hdf5File& file, const MotionHints& hints) {
 struct Recorded {
     Motion motion;
     bool is_picture_upright = true;  // by its format
+    bool takes_names = false;
 };
 
 void refuse_animation_of_others(const fs::path& file) {
@@ -189,7 +192,7 @@ Recorded read_as_recorded(const fs::path& file, const MotionHints& hints) {
     if (is_openpose_folder(file)) return {read_openpose(file, hints.fps)};
     if (is_panoptic_folder(file)) {
         Motion motion = name_keypoints(read_panoptic(file), hints.fps, hints.name_map);
-        return {stand_upright(std::move(motion), hints)};
+        return {.motion = stand_upright(std::move(motion), hints), .takes_names = true};
     }
     refuse_other_folders(file);
     const std::vector<std::byte> bytes = read_bytes(file);
@@ -197,10 +200,10 @@ Recorded read_as_recorded(const fs::path& file, const MotionHints& hints) {
         const Hdf5File tree(bytes, file.string());
         return {holds_pats(tree) ? read_pats(tree, hints.fps) : read_ours(tree, hints)};
     }
-    auto [motion, axes] = read_as_written(file, bytes, hints);
+    auto [motion, axes, takes_names] = read_as_written(file, bytes, hints);
     // A face alone has no body that shows axes and unit; its readers know them.
     if (has_body(motion)) motion = stand_upright(std::move(motion), hints, axes);
-    return {std::move(motion), false};
+    return {.motion = std::move(motion), .is_picture_upright = false, .takes_names = takes_names};
 }
 
 void refuse_absurd_hint(const fs::path& file, double fps) {
@@ -229,6 +232,38 @@ void refuse_hints_of_space(const Motion& motion, const MotionHints& hints) {
         format("{}: {} was set, but this is a picture and not a motion in space; leave it out, or set it for "
                "the .bvh that `convert` makes of the picture",
                motion.source, hint));
+}
+
+// Of several files one may have what another lacks.
+void refuse_hints_of_no_use(const Recorded& recorded, const MotionHints& hints) {
+    if (hints.fps_where_missing) return;
+    const Motion& motion = recorded.motion;
+    if (!hints.name_map.empty() && !recorded.takes_names) {
+        throw Error(
+            format("{}: names of keypoints were set, but the motion has no keypoints that a map could "
+                   "name; leave them out",
+                   motion.source));
+    }
+    if (hints.lift_cutoff && (!motion.picture || has_body(motion))) {
+        throw Error(
+            format("{}: a filter of lifting was set, but the motion is not lifted out of a picture; "
+                   "leave it out",
+                   motion.source));
+    }
+}
+
+Motion read_as_hinted(const fs::path& file, const MotionHints& hints) {
+    if (hints.fps) refuse_absurd_hint(file, *hints.fps);
+    Recorded recorded = read_as_recorded(file, hints);
+    refuse_hints_of_no_use(recorded, hints);
+    Motion motion = with_picture_hints(std::move(recorded.motion), hints.picture);
+    refuse_absurd_rate(motion);
+    refuse_hints_of_space(motion, hints);
+    refuse_broken_numbers(motion);
+    const bool is_set = hints.up != UpAxis::detect && !has_body(motion);
+    if (is_set || !recorded.is_picture_upright)
+        motion = stand_picture_upright(std::move(motion), is_set ? hints.up : UpAxis::detect);
+    return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;
 }
 
 }  // namespace
@@ -273,25 +308,14 @@ double turn_named(std::string_view name) {
 Motion read_motion(const std::filesystem::path& file, const MotionHints& hints) {
     if (hints.fps && hints.fps_where_missing) {
         MotionHints own = hints;
-        own.fps_where_missing = false;
         own.fps.reset();
         try {
             return read_motion(file, own);
         } catch (const Error&) {
-            own.fps = hints.fps;
-            return read_motion(file, own);
+            return read_as_hinted(file, hints);
         }
     }
-    if (hints.fps) refuse_absurd_hint(file, *hints.fps);
-    Recorded recorded = read_as_recorded(file, hints);
-    Motion motion = with_picture_hints(std::move(recorded.motion), hints.picture);
-    refuse_absurd_rate(motion);
-    refuse_hints_of_space(motion, hints);
-    refuse_broken_numbers(motion);
-    const bool is_set = hints.up != UpAxis::detect && !has_body(motion);
-    if (is_set || !recorded.is_picture_upright)
-        motion = stand_picture_upright(std::move(motion), is_set ? hints.up : UpAxis::detect);
-    return hints.smoothing ? smoothed(std::move(motion), *hints.smoothing) : motion;
+    return read_as_hinted(file, hints);
 }
 
 bool may_be_motion(const std::filesystem::path& file) {

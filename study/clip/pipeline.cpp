@@ -229,6 +229,14 @@ ClipResult with_report(ClipResult result, Json motions, Json recipe) {
     return result;
 }
 
+// Options of a face may be given once for two people, of whom one has a face.
+void refuse_options_of_faces(const ClipJob& job, const std::vector<Performance>& people) {
+    for (const Performance& person : people)
+        if (person.face) return;
+    for (std::size_t i = 0; i < people.size(); ++i)
+        chironomia::refuse_options_of_faces(job.performers[i].face_options, people[i].motion_file);
+}
+
 // What has been filmed needs no avatar and no scene.
 ClipResult record_film(const ClipJob& job) {
     Film film(job);
@@ -270,6 +278,7 @@ ClipResult record_clip(const ClipJob& job) {
         if (!performer.film.empty()) return record_film(job);
     std::vector<Performance> people;
     for (const Performer& performer : job.performers) people.push_back(perform(performer, job));
+    refuse_options_of_faces(job, people);
     const Stage stage = make_stage(people, job);
     follow_walkers(people, job, stage);
     for (Performance& person : people) person.avatar.images = {};  // the renderers have their own by now

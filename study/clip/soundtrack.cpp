@@ -9,6 +9,7 @@
 #include "raster/ffmpeg/audio_file.h"
 #include "raster/ffmpeg/clip_length.h"
 #include "raster/ffmpeg/sound.h"
+#include "raster/images/frame_stack.h"
 #include "study/clip/loudness.h"
 #include "study/clip/voices.h"
 
@@ -155,6 +156,11 @@ void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const Fra
                            job.spoken->text));
     }
     if (!track.sound) return;
+    if (is_stack_pattern(job.out)) {
+        track.warnings.push_back(
+            format("{}: pictures hold no sound; that of {} decides only how many there are", job.out.string(),
+                   name_of_sound(job)));
+    }
     // A condition of a study ends where the shortest one does, and its sound as it would with a cut.
     const bool ends_early = job.at_least && *range.last < frames;
     const double seconds = job.fps.seconds(ends_early ? *range.last : frames);

@@ -174,6 +174,50 @@ TEST_F(Convert, RefusesWhatMakesNoSense) {
                 HasSubstr("its points are in a picture already, so no camera can be chosen"));
 }
 
+TEST_F(Convert, RefusesHintsThatTheMotionCannotUse) {
+    const std::string names = (folder_ / "names.json").string();
+    write_text(names, "{}");
+    const std::string no_names =
+        kBvh +
+        ": names of keypoints were set, but the motion has no keypoints that a map could name; leave "
+        "them out\n";
+    const std::string not_lifted =
+        ": a filter of lifting was set, but the motion is not lifted out of a "
+        "picture; leave it out\n";
+    for (const char* verb : {"info", "fit"}) {
+        EXPECT_EQ(run_chironomia({verb, kBvh, "--names", names}).err, "chironomia: " + no_names);
+        EXPECT_EQ(run_chironomia({verb, kPoints, "--lift-filter", "6"}).err,
+                  "chironomia: " + kPoints + not_lifted);
+    }
+    const Outcome converted = convert(kBvh, "a.glb", {"--names", names});
+    EXPECT_EQ(converted.exit_code, 3);
+    EXPECT_THAT(converted.err, HasSubstr(no_names));
+    EXPECT_THAT(convert(kBvh, "a.glb", {"--lift-filter", "off"}).err, HasSubstr(not_lifted));
+    // Of two motions one may use what is given once for both.
+    ASSERT_EQ(convert(kBvh, "picture").exit_code, 0);
+    const Outcome two = run_chironomia({"render",
+                                        "--motion",
+                                        kBvh,
+                                        "--motion",
+                                        (folder_ / "picture").string(),
+                                        "--motion-fps",
+                                        "30",
+                                        "--lift-filter",
+                                        "6",
+                                        "--avatar",
+                                        "stick",
+                                        "--size",
+                                        "64x36",
+                                        "--scene",
+                                        "dyad",
+                                        "--frames",
+                                        "0:2",
+                                        "--quiet",
+                                        "--out",
+                                        (folder_ / "two.mp4").string()});
+    EXPECT_EQ(two.exit_code, 0) << two.err;
+}
+
 TEST_F(Convert, RefusesAFaceWhereNoneCanBe) {
     const std::string face = (folder_ / "face.csv").string();
     write_text(face, "frame,timestamp,confidence,success,AU12_r\n1,0,0.98,1,2\n2,0.04,0.98,1,3\n");

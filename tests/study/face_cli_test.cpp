@@ -201,6 +201,34 @@ TEST(FaceCli, RefusesWhatIsNoFace) {
     EXPECT_THAT(none.err, HasSubstr("/nowhere/f.csv"));
 }
 
+TEST(FaceCli, RefusesOptionsOfAFaceWhereNoneIs) {
+    const TemporaryFolder folder;
+    const fs::path face = write_face(folder / "f.csv", 5);
+    const auto refused = [&](const std::vector<std::string>& words) {
+        const Outcome outcome = run_chironomia(words);
+        EXPECT_EQ(outcome.exit_code, 3);
+        return outcome.err;
+    };
+    for (const std::vector<std::string>& given :
+         {std::vector<std::string>{"--face-gain", "12=2"}, {"--face-head", "add"}}) {
+        const std::string says =
+            "chironomia: " + kMotion + ": " + given[0] +
+            " was set, but no face comes with the motion; leave it out, or give one with "
+            "--face\n";
+        std::vector<std::string> words = {"--motion", kMotion, given[0], given[1]};
+        EXPECT_EQ(refused(render(folder / "c.mp4", words)), says);
+        EXPECT_FALSE(fs::exists(folder / "c.mp4"));
+        words.insert(words.begin(), "convert");
+        words.insert(words.end(), {"--out", (folder / "c.glb").string()});
+        EXPECT_EQ(refused(words), says);
+        // One of two people has a face.
+        const Outcome both = run_chironomia(render(
+            folder / "c.mp4", {"--motion", kMotion, "--motion", kMotion, "--face", face.string(), "--face",
+                               face.string(), given[0], given[1], "--scene", "dyad", "--frames", "0:2"}));
+        EXPECT_THAT(both.err, Not(HasSubstr("no face comes")));
+    }
+}
+
 TEST(FaceCli, MakesTheSameBytesForAnyThreads) {
     const TemporaryFolder folder;
     const fs::path face = write_face(folder / "f.csv", 4);

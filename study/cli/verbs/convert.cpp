@@ -163,6 +163,8 @@ void refuse_pointless_options(const PerformerMotions& motions, const ConvertComm
             "{}: --no-interpenetration needs the volume of an avatar; name one with --avatar, or leave it out",
             out));
     }
+    const bool has_face = motions.face || (motions.body && motions.body->face);
+    if (!has_face) refuse_options_of_faces(command.face_options, command.motion);
     if (command.lift && form == Form::openpose)
         throw Error(format("{}: OpenPose holds points of a picture as they are; leave --lift out", out));
     if (command.lift && !(motions.body && motions.body->picture)) {

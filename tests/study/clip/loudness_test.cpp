@@ -152,6 +152,16 @@ TEST_F(FullScale, LeavesOtherSoundsAsTheyAre) {
         << "it has its loudness from elsewhere";
 }
 
+TEST_F(FullScale, PicturesHoldNoSoundAndSaySo) {
+    const std::string stack = (folder_ / "frames/%05d.png").string();
+    const testing::Outcome outcome = render(sine({.seconds = 1}), {"--out", stack});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err, stack + ": pictures hold no sound; that of " + (folder_ / "sound.wav").string() +
+                               " decides only how many there are\n");
+    std::filesystem::remove_all(folder_ / "frames");
+    EXPECT_EQ(render(sine({.seconds = 1}), {"--out", stack, "--silent"}).err, "");
+}
+
 TEST(BringTo, MakesSpeechAsLoudAsAsked) {
     for (const double target : {-23.0, -30.0}) {
         const LoudSound loud = bring_to(read_audio(kSpeech), target);
