@@ -155,6 +155,13 @@ NoticePlate::NoticePlate(const Notice& notice, const RenderSize& size, const Rat
     const double end = notice.to.value_or(fps.seconds(frames));
     first_ = static_cast<std::size_t>(std::llround(notice.from * fps.per_second()));
     last_ = static_cast<std::size_t>(std::llround(end * fps.per_second()));
+    const double seconds = fps.seconds(frames);
+    if (notice.from < seconds && end <= seconds && first_ >= last_) {
+        throw Error(format(
+            "notice \"{}\": is to be seen from {:.3f} s to {:.3f} s, and no frame of the clip lies there, "
+            "which lasts {:.3f} s at {} frames per second; choose a longer time",
+            notice.text, notice.from, end, fps.seconds(frames), to_text(fps)));
+    }
     if (last_ > frames || first_ >= last_) {
         throw Error(
             format("notice \"{}\": is to be seen from {:.3f} s to {:.3f} s of a clip that lasts {:.3f} s; "

@@ -104,6 +104,18 @@ TEST(NoticePlate, RefusesWhatCannotBeRead) {
     EXPECT_THAT(refusal_of([&] { with_notice({.text = "\u0645"}, size); }), HasSubstr("cannot be burnt in"));
 }
 
+TEST(NoticePlate, SaysThatNoFrameLiesInItsTime) {
+    const TemporaryFolder folder;
+    const testing::Outcome outcome = testing::run_chironomia(
+        {"render", kMotion, "--avatar", "stick", "--size", "320x180", "--quiet", "--cut", "0:5", "--notice",
+         "Now", "--notice-at", "1:1.01", "--out", (folder / "clip.mp4").string()});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_EQ(
+        outcome.err,
+        "chironomia: notice \"Now\": is to be seen from 1.000 s to 1.010 s, and no frame of the clip lies "
+        "there, which lasts 5.000 s at 30 frames per second; choose a longer time\n");
+}
+
 double integrated(const Audio& sound) {
     return measure_loudness(sound).integrated.value_or(-100);
 }
