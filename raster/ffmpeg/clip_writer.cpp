@@ -58,6 +58,7 @@ void expect_side(const fs::path& file, const char* name, int side) {
 }
 
 void expect_usable(const fs::path& file, const ClipSpec& spec, const std::optional<Audio>& sound) {
+    kind_of(file);
     expect_side(file, "width", spec.size.width);
     expect_side(file, "height", spec.size.height);
     if (spec.fps.numerator <= 0 || spec.fps.denominator <= 0) {

@@ -386,7 +386,7 @@ TEST(Cli, RefusesWrongInputWithExitThreeAndLeavesNothing) {
         {render(out, {"--scene", "moon"}), "moon"},
         {render(out, {"--size", "161x90"}), "161"},
         {render(out, {"--frames", "0:100000"}), "frames 0:100000 were asked for, but the clip has"},
-        {render(folder / "clip.avi"), ".avi"},
+        {render(folder / "clip.avi", {"--size", "161x90"}), "a clip cannot end in \".avi\""},
         {render("/proc/none/clip.mp4"), "/proc/none/clip.mp4: cannot be written"},
         {{"convert", "--motion", kMotion, "--out", (folder / "x.fbx").string()},
          "\".fbx\" is no form of motion; choose .bvh, .glb, .h5, .csv, or a name"},
