@@ -234,7 +234,7 @@ void refuse_hints_of_space(const Motion& motion, const MotionHints& hints) {
                motion.source, hint));
 }
 
-// Of several files one may have what another lacks.
+// Of several files, as fps_where_missing says of them, one may have what another lacks.
 void refuse_hints_of_no_use(const Recorded& recorded, const MotionHints& hints) {
     if (hints.fps_where_missing) return;
     const Motion& motion = recorded.motion;
