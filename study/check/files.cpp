@@ -539,8 +539,15 @@ Proof check_orders(const StudyRecord& study) {
     constexpr std::string_view kProperty = "orders are balanced";
     if (const std::string fault = fault_of_sheets(study); !fault.empty()) return no(kProperty, fault);
     const Design seen = trials_of(study).design;
-    const Design drawn = draw_design(study.key.shape, study.key.seed);
-    if (!same_sheets(seen, drawn)) return no(kProperty, "they are not those that the seed draws");
+    const DesignShape& shape = study.key.shape;
+    const Design drawn = draw_design(shape, study.key.seed);
+    if (!same_sheets(seen, drawn)) {
+        return no(kProperty,
+                  format("they are not those that the seed draws{}",
+                         shape.pages_per_sheet ? "; of a study whose participants see a sample of the pages, "
+                                                 "an earlier version of the program drew others"
+                                               : ""));
+    }
     const CountRange positions = count_positions(drawn), showings = count_showings(drawn);
     return yes(kProperty, format("{}; each page {} to {} times, {} to {} times at each position",
                                  counted(study.pages.sheets.size(), "order"), showings.least, showings.most,
