@@ -238,7 +238,7 @@ TEST(ReadMotion, SaysThatLeftAndRightLookExchanged) {
     }
 }
 
-// glTF has y up, so whoever lies in it lies.
+// glTF has y up, so a person who lies in it lies.
 TEST(ReadMotion, LetsAPersonLieInGltf) {
     const testing::TemporaryFolder folder;
     const auto mannequin = testing::source_dir() / "assets/avatars/mannequin.glb";

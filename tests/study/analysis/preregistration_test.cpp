@@ -93,7 +93,7 @@ TEST_F(Preregistered, SaysWhatThePlanDoesNotSayInsteadOfInventingIt) {
     EXPECT_EQ(item("Study design")["missing"], nullptr);
 }
 
-// More answers tell more of a rater. Of several questions the one with the fewest counts.
+// More answers say more of a rater. Of several questions the one with the fewest counts.
 TEST_F(Preregistered, FindsThePowerOfAsManyAnswersAsThePlanHas) {
     Json plan = sample_plan();
     const auto needed = [&](std::vector<std::size_t> counts) {
