@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/files/scratch_folder.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -82,9 +83,12 @@ std::vector<std::byte> ZipReader::read(std::size_t entry, std::size_t most_bytes
 }
 
 void write_zip(const std::filesystem::path& out, const std::vector<ZipEntry>& entries) {
-    PendingOutput pending(out, PendingOutput::Kind::file);
+    const PendingOutput checked(out, PendingOutput::Kind::file);
+    // libzip puts a file of its own in the place of the one that it is given.
+    const ScratchFolder scratch = ScratchFolder::within(checked.path().parent_path());
+    const std::filesystem::path made = scratch.path() / "archive";
     int code = 0;
-    zip_t* archive = zip_open(pending.path().c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
+    zip_t* archive = zip_open(made.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &code);
     if (!archive) {
         throw Error(
             format("{}: cannot be written ({}); check the path and its permissions", out.string(), code));
@@ -96,7 +100,7 @@ void write_zip(const std::filesystem::path& out, const std::vector<ZipEntry>& en
         zip_discard(archive);
         throw;
     }
-    pending.commit();
+    scratch.move_out(made.filename(), out);
 }
 
 }  // namespace chironomia

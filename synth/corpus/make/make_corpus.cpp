@@ -171,7 +171,7 @@ SpeakerChoice speaker_choice_of(std::string_view text) {
 }
 
 CorpusIndex make_corpus(const CorpusOrder& order) {
-    PendingOutput place(order.folder, PendingOutput::Kind::folder);
+    const PendingOutput checked(order.folder, PendingOutput::Kind::folder);
     const Lexicon lexicon = read_corpus_lexicon();
     CorpusOrder pending = order;
     pending.folder = UnfinishedCorpus::folder_beside(order.folder);
@@ -186,8 +186,7 @@ CorpusIndex make_corpus(const CorpusOrder& order) {
     write_corpus_index(index);
     if (order.tables) write_manifests(index);
     write_statistics(index.folder, measure_statistics(index));
-    unfinished.finish(place.path());
-    place.commit();
+    unfinished.finish(checked.final_path());
     index.folder = order.folder;
     return index;
 }
