@@ -107,6 +107,7 @@ SetUpdate update_folder(const fs::path& expected, const fs::path& actual) {
     } else {
         copy_companions(expected, output.path());
         exchange(output.path(), place);
+        fs::remove_all(output.path());  // the references of before
     }
     return update;
 }
