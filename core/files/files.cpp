@@ -33,19 +33,29 @@ class OwnPartials {
         open_[&output] = ::open(output.path().c_str(), O_PATH | O_CLOEXEC);
     }
 
-    // Whether what lies there now is what was added.
+    // Whether what lies there now is what was added, as far as the system said what that was.
     static bool take(const PendingOutput& output) {
         const std::scoped_lock lock(mutex_);
         const auto node = open_.extract(&output);
-        if (node.empty() || node.mapped() < 0) return false;
-        struct stat own {
-        }, there{};
-        const bool known = ::fstat(node.mapped(), &own) == 0 && ::stat(output.path().c_str(), &there) == 0;
+        if (node.empty()) return false;
+        if (node.mapped() < 0) return true;
+        const Status own = status_of(::fstat, node.mapped());
+        const Status there = status_of(::stat, output.path().c_str());
         ::close(node.mapped());
-        return known && own.st_dev == there.st_dev && own.st_ino == there.st_ino;
+        return own.st_dev == there.st_dev && own.st_ino == there.st_ino;
     }
 
   private:
+    using Status = struct stat;
+
+    // 0 throughout where there is nothing.
+    template <typename Where>
+    static Status status_of(int (*read)(Where, Status*), Where where) {
+        Status status = {};
+        if (read(where, &status) != 0) status = {};
+        return status;
+    }
+
     static inline std::mutex mutex_;
     static inline std::map<const PendingOutput*, int> open_;
 };

@@ -21,7 +21,7 @@ void write_bytes(const std::filesystem::path& file, std::span<const std::byte> b
 
 // A file or folder that is made under a hidden name beside its final one (".clip.mp4.partial") and takes the
 // final name by one rename in commit(). Without commit() the destructor removes it. A leftover of a killed
-// run is replaced.
+// run is replaced, and so is what a run makes that began before and goes on.
 class PendingOutput {
   public:
     enum class Kind { file, folder };
@@ -35,7 +35,7 @@ class PendingOutput {
 
     const std::filesystem::path& path() const { return partial_; }  // where to write
     const std::filesystem::path& final_path() const { return final_; }
-    void commit();  // throws Error if the rename fails
+    void commit();  // throws Error if the rename fails, or another run makes it now
 
   private:
     std::filesystem::path final_;

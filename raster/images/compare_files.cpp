@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kMostApart = 0.002;  // of beginnings [s]: WebM counts milliseconds
 
-constexpr double kMostLate = 0.1;  // of time stamps [frames]
-constexpr double kClock = 0.0011;  // of WebM, with what is rounded [s]
+constexpr double kMostLate = 0.1;  // ours: of time stamps [frames]
+constexpr double kClock = 0.0011;  // of WebM, which counts milliseconds, with what is rounded [s]
 
 // Frames one after the other, from wherever they come.
 class FrameSource {

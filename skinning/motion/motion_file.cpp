@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/error.h"
 #include "core/files/byte_order_mark.h"
@@ -55,36 +54,6 @@ KeypointData read_json_keypoints(const fs::path& file, const Json& json) {
     return keypoints_of_json(json, file.string());
 }
 
-// In the axes of TalkSHOW's camera y goes down and z away from it, so that the whole is turned over.
-void turn_over(JointTrack& track) {
-    const size_t count = track.skeleton.joints.size();
-    const Quat over = glm::angleAxis(std::numbers::pi_v<float>, Vec3(1, 0, 0));
-    const Vec3 rest = track.skeleton.joints[0].rest.translation;
-    for (size_t i = 0; i < track.turns.size(); i += count) {
-        track.turns[i] = over * track.turns[i];
-        track.translations[i] = rest + over * (track.translations[i] - rest);
-    }
-}
-
-Motion motion_of_talkshow(std::vector<NumpyArray> arrays, const fs::path& file, std::optional<double> fps) {
-    const auto turns = std::ranges::find_if(arrays, is_talkshow);
-    const bool has_face = turns->shape[1] > 3 * 55;
-    *turns = poses_of_talkshow(*turns);
-    Motion motion = motion_of_smpl(arrays, file.string(), fps);
-    turn_over(*motion.joints);
-    motion.notes.insert(
-        motion.notes.begin(),
-        {"TalkSHOW: turns of jaw and eyes come first; its camera sees bodies upside down, which are turned over",
-         "hands: their turns go from the model's mean hand, which only the model has; from a flat one they look "
-         "flatter"});
-    if (has_face) {
-        motion.notes.emplace_back(
-            "expressions: left out, only the model itself defines what they look like; give the face with "
-            "--face");
-    }
-    return motion;
-}
-
 struct Written {
     Motion motion;  // in the file's own axes and unit
     FileAxes axes{};
@@ -107,7 +76,7 @@ Written read_as_written(const fs::path& file, const std::vector<std::byte>& byte
     if (begins_with_word(text, "hierarchy")) return {parse_bvh(text, file.string(), hints.fps)};
     if (is_npy(bytes)) {
         NumpyArray array = parse_npy(bytes, file.string());
-        if (is_talkshow(array)) return {motion_of_talkshow({array}, file, hints.fps)};
+        if (is_talkshow(array)) return {motion_of_talkshow({array}, file.string(), hints.fps)};
         if (are_turns(array)) {
             array.name = "poses";
             return {motion_of_smpl({array}, file.string(), hints.fps), {.is_body_model = true}};
@@ -116,7 +85,8 @@ Written read_as_written(const fs::path& file, const std::vector<std::byte>& byte
     }
     if (is_zip(bytes)) {
         const std::vector<NumpyArray> arrays = parse_npz(bytes, file.string());
-        if (std::ranges::any_of(arrays, is_talkshow)) return {motion_of_talkshow(arrays, file, hints.fps)};
+        if (std::ranges::any_of(arrays, is_talkshow))
+            return {motion_of_talkshow(arrays, file.string(), hints.fps)};
         if (holds_smpl(arrays))
             return {motion_of_smpl(arrays, file.string(), hints.fps), {.is_body_model = true}};
         return named(keypoints_of_arrays(arrays, file.string()));
@@ -234,9 +204,8 @@ void refuse_hints_of_space(const Motion& motion, const MotionHints& hints) {
                motion.source, hint));
 }
 
-// Of several files, as fps_where_missing says of them, one may have what another lacks.
 void refuse_hints_of_no_use(const Recorded& recorded, const MotionHints& hints) {
-    if (hints.fps_where_missing) return;
+    if (hints.of_several) return;
     const Motion& motion = recorded.motion;
     if (!hints.name_map.empty() && !recorded.takes_names) {
         throw Error(

@@ -20,6 +20,7 @@ enum class UpAxis { detect, x, y, z, minus_x, minus_y, minus_z };
 struct MotionHints {
     std::optional<double> fps;       // replaces the rate in the file; needed where the file has none  [1/s]
     bool fps_where_missing = false;  // it is of several files: one that has a rate keeps it
+    bool of_several = false;         // files, of which one may have no use for names or a filter of lifting
     UpAxis up = UpAxis::detect;
     std::optional<double> unit{};         // metres per unit of the file
     std::optional<double> turn_deg{};     // turned by this about +y instead of until it faces +z,

@@ -542,11 +542,11 @@ Proof check_orders(const StudyRecord& study) {
     const DesignShape& shape = study.key.shape;
     const Design drawn = draw_design(shape, study.key.seed);
     if (!same_sheets(seen, drawn)) {
-        return no(kProperty,
-                  format("they are not those that the seed draws{}",
-                         shape.pages_per_sheet ? "; of a study whose participants see a sample of the pages, "
-                                                 "an earlier version of the program drew others"
-                                               : ""));
+        return no(kProperty, format("they are not those that the seed draws{}",
+                                    shape.pages_per_sheet || shape.each_clip_once
+                                        ? "; of a study whose participants see a sample of the pages, "
+                                          "an earlier version of the program drew others"
+                                        : ""));
     }
     const CountRange positions = count_positions(drawn), showings = count_showings(drawn);
     return yes(kProperty, format("{}; each page {} to {} times, {} to {} times at each position",

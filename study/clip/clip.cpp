@@ -39,7 +39,7 @@ Json of_spoken(const std::optional<SpokenNotice>& spoken) {
 Json hints_of(const MotionHints& hints, RecipeMemory& memory) {
     Json json;
     json["fps"] = or_null(hints.fps);
-    if (hints.fps && hints.fps_where_missing) json["fps_where_missing"] = true;
+    if (hints.fps_where_missing) json["fps_where_missing"] = true;
     json["up"] = static_cast<int>(hints.up);
     json["unit"] = or_null(hints.unit);
     json["turn_deg"] = or_null(hints.turn_deg);

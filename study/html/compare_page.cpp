@@ -18,10 +18,11 @@ std::string figure(const char* kind, std::span<const std::byte> png, const std::
 
 std::string numbers_of(const FrameComparison& frame) {
     return format(
-        "<dl><div><dt>pixels that differ</dt><dd>{} of {}</dd></div><div><dt>by too "
-        "much</dt><dd>{}</dd></div><div><dt>the most</dt><dd>{:.0f} of 255 at ({}, "
-        "{})</dd></div><div><dt>PSNR</dt><dd>{:.1f} dB</dd></div><div><dt>mean "
-        "error</dt><dd>{:.5f}</dd></div>{}</dl>\n",
+        "<dl><div><dt>pixels that differ</dt><dd>{} of {}</dd></div>"
+        "<div><dt>by too much</dt><dd>{}</dd></div>"
+        "<div><dt>the most</dt><dd>{:.0f} of 255 at ({}, {})</dd></div>"
+        "<div><dt>PSNR</dt><dd>{:.1f} dB</dd></div>"
+        "<div><dt>mean error</dt><dd>{:.5f}</dd></div>{}</dl>\n",
         frame.pixels_above_small, frame.pixels, frame.pixels_above_large, 255 * frame.max_error, frame.max_x,
         frame.max_y, frame.psnr, frame.mean_error,
         frame.visible_differences

@@ -167,8 +167,7 @@ MotionHints read_hints_of_condition(const JsonValue& value, const fs::path& fold
     if (const auto smooth = value.find("smooth")) hints.smoothing = read_word(*smooth, smoothing_named);
     if (const auto animation = value.find("animation")) hints.animation = animation->text();
     if (const auto names = value.find("names")) hints.name_map = read_path(*names, folder);
-    // Of the motions of a condition some may have nothing to name or to lift.
-    hints.fps_where_missing = !hints.fps && (hints.lift_cutoff || !hints.name_map.empty());
+    hints.of_several = true;
     return hints;
 }
 

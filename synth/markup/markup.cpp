@@ -78,13 +78,7 @@ bool declares_latin_1(std::string_view text) {
 // The characters of ISO 8859-1 are the first 256 of Unicode.
 std::string utf8_of_latin_1(std::string_view text) {
     std::string converted;
-    for (const char letter : text) {
-        const auto code = static_cast<unsigned char>(letter);
-        if (code < 0x80)
-            converted += letter;
-        else
-            converted += {static_cast<char>(0xc0 | (code >> 6)), static_cast<char>(0x80 | (code & 0x3f))};
-    }
+    for (const char letter : text) converted += utf8_of(static_cast<unsigned char>(letter));
     return converted;
 }
 

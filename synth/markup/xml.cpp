@@ -122,15 +122,6 @@ bool is_character(unsigned long code) {
            (code >= 0xe000 && code < 0x110000 && code != 0xfffe && code != 0xffff);
 }
 
-std::string utf8_of(unsigned long code) {
-    const auto byte = [](unsigned long bits) { return static_cast<char>(bits); };
-    const auto tail = [&](int shift) { return byte(0x80 | ((code >> shift) & 0x3f)); };
-    if (code < 0x80) return {byte(code)};
-    if (code < 0x800) return {byte(0xc0 | (code >> 6)), tail(0)};
-    if (code < 0x10000) return {byte(0xe0 | (code >> 12)), tail(6), tail(0)};
-    return {byte(0xf0 | (code >> 18)), tail(12), tail(6), tail(0)};
-}
-
 void refuse_unknown_entities(const XmlSource& source, std::size_t begin, std::size_t end) {
     constexpr std::size_t kLongest = 10;
     const std::string_view range = source.text.substr(0, end);
@@ -238,6 +229,15 @@ std::size_t end_of_tag(std::string_view text, std::size_t at) {
     if (at >= text.size()) return text.size();
     const std::optional<std::size_t> aside = end_of_aside(text, at);
     return aside ? *aside : read_tag(text, at).end;
+}
+
+std::string utf8_of(unsigned long code) {
+    const auto byte = [](unsigned long bits) { return static_cast<char>(bits); };
+    const auto tail = [&](int shift) { return byte(0x80 | ((code >> shift) & 0x3f)); };
+    if (code < 0x80) return {byte(code)};
+    if (code < 0x800) return {byte(0xc0 | (code >> 6)), tail(0)};
+    if (code < 0x10000) return {byte(0xe0 | (code >> 12)), tail(6), tail(0)};
+    return {byte(0xf0 | (code >> 18)), tail(12), tail(6), tail(0)};
 }
 
 std::string character_of(std::string_view reference) {

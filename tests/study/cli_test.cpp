@@ -456,6 +456,17 @@ TEST(Cli, LeavesNothingUnderAFinalNameAfterInterruptAndKill) {
     }
 }
 
+// As if this process were a run that began before.
+TEST(Cli, WritesWhatAnotherRunBeganToWrite) {
+    const TemporaryFolder folder;
+    PendingOutput first(folder / "clip.mp4", PendingOutput::Kind::file);
+    const Outcome second = run_chironomia(render(folder / "clip.mp4", {"--frames", "0:1", "--quiet"}));
+    EXPECT_EQ(second.exit_code, 0) << second.err;
+    EXPECT_THAT(testing::refusal_of([&] { first.commit(); }),
+                HasSubstr("clip.mp4: another run began to write it meanwhile"));
+    EXPECT_EQ(run_chironomia({"info", (folder / "clip.mp4").string()}).exit_code, 0);
+}
+
 TEST(Cli, ReadsMotionsBehindAByteOrderMark) {
     const TemporaryFolder folder;
     const fs::path table = folder / "a.csv", marked = folder / "marked.csv", bvh = folder / "marked.bvh";

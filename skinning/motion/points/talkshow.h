@@ -1,6 +1,11 @@
 // The turns that TalkSHOW puts out (Yi et al., CVPR 2023): those of SMPL-X, in an order of its own.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/body/motion.h"
 #include "skinning/motion/points/npy.h"
 
 namespace chironomia {
@@ -11,7 +16,10 @@ namespace chironomia {
 // TalkSHOW's camera, or the lowest joint of the spine, which nobody turns that far.
 bool is_talkshow(const NumpyArray& array);
 
-// The turns in the order of SMPL-X, (T, 165), as motion_of_smpl() reads them: "poses".
-NumpyArray poses_of_talkshow(const NumpyArray& array);
+// The motion of such an array among others, as motion_of_smpl() reads it, turned over so that +y is up: the camera of
+// TalkSHOW has y down and z away from it. Hands go from a flat one instead of the model's mean, which a note says.
+// Throws Error as motion_of_smpl().
+Motion motion_of_talkshow(std::vector<NumpyArray> arrays, const std::string& where,
+                          std::optional<double> fps);
 
 }  // namespace chironomia

@@ -116,10 +116,11 @@ void PeopleOptions::distribute(const Given& given, const Given& counted, std::ve
                                given.option.is_of_one ? "" : "once or ", counted.name));
     }
     for (std::size_t i = 0; i < people.size(); ++i) {
-        MotionHints& hints = people[i].hints;
-        const bool may_lack = given.name == "--motion-fps" ||
-                              ((given.name == "--names" || given.name == "--lift-filter") && !hints.fps);
-        hints.fps_where_missing |= may_lack && count < people.size();
+        if (count < people.size()) {
+            MotionHints& hints = people[i].hints;
+            hints.fps_where_missing |= given.name == "--motion-fps";
+            hints.of_several |= given.name == "--names" || given.name == "--lift-filter";
+        }
         try {
             given.option.read(people[i], given.texts[count == 1 ? 0 : i]);
         } catch (const Error& error) {
