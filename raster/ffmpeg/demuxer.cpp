@@ -1,6 +1,7 @@
 #include "raster/ffmpeg/demuxer.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -36,6 +37,22 @@ void expect_content(const fs::path& file) {
     }
 }
 
+// Files write any number for their colours; one without a name stands for no colour that is known.
+template <class Colour>
+void forget_unnamed(Colour& colour, Colour first_without_name, Colour unspecified) {
+    std::uint32_t number = 0;  // not yet a Colour: reading one that has no name is undefined
+    static_assert(sizeof(number) == sizeof(colour));
+    std::memcpy(&number, &colour, sizeof(number));
+    if (number >= static_cast<std::uint32_t>(first_without_name)) colour = unspecified;
+}
+
+void forget_unnamed_colours(AVCodecParameters& codec) {
+    forget_unnamed(codec.color_range, AVCOL_RANGE_NB, AVCOL_RANGE_UNSPECIFIED);
+    forget_unnamed(codec.color_primaries, AVCOL_PRI_NB, AVCOL_PRI_UNSPECIFIED);
+    forget_unnamed(codec.color_trc, AVCOL_TRC_NB, AVCOL_TRC_UNSPECIFIED);
+    forget_unnamed(codec.color_space, AVCOL_SPC_NB, AVCOL_SPC_UNSPECIFIED);
+}
+
 }  // namespace
 
 Owned<AVFormatContext> open_media(const fs::path& file, const char* needed) {
@@ -55,6 +72,8 @@ Owned<AVFormatContext> open_media(const fs::path& file, const char* needed) {
         throw Error(format("{}: is not {} that can be read ({}); convert it with another program",
                            file.string(), needed, ffmpeg_message(problem)));
     }
+    for (unsigned i = 0; i < container->nb_streams; ++i)
+        forget_unnamed_colours(*container->streams[i]->codecpar);
     return container;
 }
 

@@ -173,6 +173,26 @@ TEST_F(ComparePlayback, FindsOtherTagsOfColour) {
         << "what is not tagged is taken as players take it";
 }
 
+TEST_F(ComparePlayback, TakesNumbersOfColoursWithoutANameForUnknown) {
+    const std::string file = (folder_ / "c.webm").string();
+    testing::output_of("ffmpeg -nostdin -v error -i " + testing::quoted(a()) +
+                       " -c:v libvpx -color_range tv -colorspace bt709 -color_trc bt709 "
+                       "-color_primaries bt709 " +
+                       testing::quoted(file));
+    std::string bytes = read_text(file);
+    for (const char element : {'\xb1', '\xb9', '\xba', '\xbb'}) {  // matrix, range, transfer, primaries
+        const std::size_t at = bytes.find(std::string("\x55") + element + '\x81');
+        ASSERT_NE(at, std::string::npos) << "Matroska's colour elements of one byte";
+        bytes[at + 3] = '\x4c';
+    }
+    write_text(file, bytes);
+    const Outcome info = run_chironomia({"info", file});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("picture    vp8 yuv420p unknown, 64x48"));
+    EXPECT_THAT(info.out, Not(HasSubstr("\ncolours ")));
+    EXPECT_EQ(run_chironomia({"compare", "--quiet", file, file}).exit_code, 0);
+}
+
 // A YAML block of the document: every command that it runs, and every file that it hands on.
 struct Example {
     std::vector<std::string> commands;

@@ -253,10 +253,11 @@ std::string clip_text(const ClipInfo& clip) {
     std::string text =
         format("container  {}, {:.3f} s, {} bytes\n", clip.container, clip.duration_s, clip.bytes);
     if (const auto& picture = clip.picture) {
-        text += format("picture    {} {} {} {}, {}x{}, {} frames/s{}, {} frames, {:.3f} s\n", picture->codec,
-                       picture->profile, picture->pixel_format, picture->colours, picture->width,
-                       picture->height, to_text(picture->fps), picture->constant_rate ? " constant" : "",
-                       picture->frames, picture->duration_s);
+        const std::string profile = picture->profile.empty() ? "" : " " + picture->profile;
+        text += format("picture    {}{} {} {}, {}x{}, {} frames/s{}, {} frames, {:.3f} s\n", picture->codec,
+                       profile, picture->pixel_format, picture->colours, picture->width, picture->height,
+                       to_text(picture->fps), picture->constant_rate ? " constant" : "", picture->frames,
+                       picture->duration_s);
         text += display_text(*picture);
     }
     if (const auto& sound = clip.sound) {
