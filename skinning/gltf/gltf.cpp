@@ -39,21 +39,29 @@ JoinedFile open_joined(const std::filesystem::path& path) {
     return joined;
 }
 
-HumanoidGuess guess_humanoid(const GltfScene& scene) {
-    const Skeleton& skeleton = scene.avatar.skeleton;
-    return scene.named_by_file.has(HumanJoint::hips) ? check_humanoid(skeleton, scene.named_by_file)
-                                                     : find_humanoid(skeleton, joints_of(scene.avatar));
+// Gives the avatar its map if it is a humanoid.
+HumanoidGuess guess_humanoid(GltfScene& scene) {
+    Avatar& avatar = scene.avatar;
+    HumanoidGuess guess = scene.named_by_file.has(HumanJoint::hips)
+                              ? check_humanoid(avatar.skeleton, scene.named_by_file)
+                              : find_humanoid(avatar.skeleton, joints_of(avatar));
+    if (!guess.refusal.empty()) return guess;
+    avatar.humanoid = guess.map;
+    if (moves_meshes(avatar)) return guess;
+    avatar.humanoid = {};
+    guess.refusal =
+        "its skeleton moves none of its meshes; skin them to its joints, or export them with their skin";
+    return guess;
 }
 
-Avatar made_upright(GltfScene& scene, HumanoidGuess guess) {
-    scene.avatar.humanoid = guess.map;
+Avatar made_upright(GltfScene& scene, const HumanoidGuess& guess) {
     if (std::optional<BindPose> bind = bind_pose_of(scene.avatar)) {
         scene.avatar.skeleton = std::move(bind->skeleton);
         scene.avatar.humanoid_notes.push_back(std::move(bind->note));
     }
     unmirror(scene.avatar);
     finish_human_materials(scene.avatar);
-    for (std::string& note : guess.notes) scene.avatar.humanoid_notes.push_back(std::move(note));
+    for (const std::string& note : guess.notes) scene.avatar.humanoid_notes.push_back(note);
     join_second_armatures(scene.avatar);
     return turn_upright(std::move(scene.avatar));
 }
@@ -100,7 +108,7 @@ Avatar read_avatar(const std::filesystem::path& path) {
     guess.notes.insert(guess.notes.end(), notes.begin(), notes.end());
     if (!guess.refusal.empty())
         throw Error(format("{}: is no humanoid: {}; use a humanoid avatar", file.name, guess.refusal));
-    return made_upright(scene, std::move(guess));
+    return made_upright(scene, guess);
 }
 
 Avatar read_avatar_or_scene(const std::filesystem::path& path) {
@@ -108,7 +116,7 @@ Avatar read_avatar_or_scene(const std::filesystem::path& path) {
     GltfScene scene = read_gltf_parts(file);
     HumanoidGuess guess = guess_humanoid(scene);
     guess.notes.insert(guess.notes.end(), notes.begin(), notes.end());
-    if (guess.refusal.empty()) return made_upright(scene, std::move(guess));
+    if (guess.refusal.empty()) return made_upright(scene, guess);
     scene.avatar.humanoid_notes.push_back("is no humanoid: " + guess.refusal);
     return std::move(scene.avatar);
 }

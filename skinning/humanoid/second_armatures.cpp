@@ -64,6 +64,7 @@ std::vector<int> counterparts(const Avatar& avatar, const std::vector<Mat4>& wor
 // Whether any joint that moves the surface fulfils a condition.
 template <typename Condition>
 bool any_mover(const Avatar& avatar, const Surface& surface, Condition holds) {
+    if (surface.skin < 0) return surface.joint >= 0 && holds(static_cast<size_t>(surface.joint));
     const std::vector<int>& joints = avatar.skins[static_cast<size_t>(surface.skin)].joints;
     return std::ranges::any_of(surface.influences, [&](const Influence& influence) {
         return influence.weight > 0 && holds(static_cast<size_t>(joints[influence.joint]));
@@ -71,6 +72,15 @@ bool any_mover(const Avatar& avatar, const Surface& surface, Condition holds) {
 }
 
 }  // namespace
+
+bool moves_meshes(const Avatar& avatar) {
+    const std::vector<bool> inside = joints_of_figure(avatar);
+    const std::vector<int> goes_with =
+        counterparts(avatar, world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton)));
+    return std::ranges::any_of(avatar.surfaces, [&](const Surface& surface) {
+        return any_mover(avatar, surface, [&](size_t j) { return inside[j] || goes_with[j] >= 0; });
+    });
+}
 
 void join_second_armatures(Avatar& avatar) {
     const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));

@@ -8,6 +8,10 @@
 
 namespace chironomia {
 
+// Whether any mesh goes with the hips, a joint below them, or an armature that join_second_armatures joins to those. The
+// avatar must be a humanoid.
+bool moves_meshes(const Avatar& avatar);
+
 // Modular characters bring an armature with each garment, whose joints have the names and the places of the body's.
 // Hangs what such joints move from the body's; joints that only the garment has go with the nearest one above that has
 // a counterpart. At rest nothing moves. Adds a note for each mesh that it rehangs. Leaves out meshes that hang on other

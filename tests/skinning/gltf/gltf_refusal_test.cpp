@@ -13,6 +13,7 @@
 namespace chironomia {
 namespace {
 
+using ::testing::Contains;
 using testing::GltfBuilder;
 using ::testing::HasSubstr;
 using testing::humanoid_file;
@@ -414,6 +415,22 @@ TEST(GltfRefusal, SaysWhatANonHumanoidLacks) {
     const std::string refusal = refusal_of([&] { read_avatar(folder / "x.glb"); });
     EXPECT_THAT(refusal, HasSubstr("x.glb: is no humanoid: no joint was found for hips, left_upper_arm"));
     EXPECT_THAT(refusal, HasSubstr("use a humanoid avatar"));
+}
+
+TEST(GltfRefusal, RefusesAMeshThatNoJointMoves) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / "x.glb";
+    GltfBuilder file = humanoid_file();
+    for (auto& node : file.json["nodes"]) node.erase("mesh");
+    file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
+    file.json["nodes"].push_back({{"name", "Body"}, {"mesh", 0}});
+    file.write_glb(path);
+    const std::string why = "its skeleton moves none of its meshes; skin them to its joints";
+    EXPECT_THAT(refusal_of([&] { read_avatar(path); }), HasSubstr("x.glb: is no humanoid: " + why));
+    const Avatar scene = read_avatar_or_scene(path);
+    EXPECT_FALSE(scene.humanoid.has(HumanJoint::hips));
+    EXPECT_THAT(scene.humanoid_notes, Contains(HasSubstr(why)));
+    EXPECT_EQ(scene.surfaces.size(), 1u);
 }
 
 TEST(GltfRefusal, RefusesARestPoseThatIsNotFinite) {
