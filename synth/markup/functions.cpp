@@ -56,7 +56,7 @@ constexpr FunctionValue kProperties[] = {{"shape-round", 0.75, "round circle cir
                                          {"time-future", 0.6, "future"}};
 constexpr FunctionValue kEmotions[] = {
     {"joy", 0.75,
-     "happiness happy happy-for gratification gratitude satisfaction hope love pride relief liking"},
+     "happiness happy happy-for gratification gratitude satisfaction hope love pride relief liking joyStrong"},
     {"sadness", 0.7, "sad sorry-for distress disappointment remorse shame"},
     {"anger", 0.8, "angry reproach resentment hate envy jealousy irritation"},
     {"fear", 0.75, "afraid worry fears-confirmed anxiety"},

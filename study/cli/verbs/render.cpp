@@ -223,7 +223,8 @@ void add_drawing(CLI::App& verb, ClipJob& job) {
 void add_output(CLI::App& verb, RenderCommand& command) {
     verb.add_option("--report", command.report, "Write how well the avatar follows the motion")
         ->type_name("F.json");
-    verb.add_option("--out", command.job.out, "clip.mp4, clip.webm, or a stack such as DIR/%05d.png")
+    verb.add_option("--out", command.job.out,
+                    "clip.mp4, clip.webm, or a stack numbered from 0, such as DIR/%05d.png")
         ->type_name("FILE")
         ->required();
     verb.add_flag("--quiet", command.job.quiet, "No progress");

@@ -236,8 +236,13 @@ void refuse_options_of_one(const CLI::App& verb) {
 
 std::string summary(const Synthesized& made) {
     const Motion& motion = made.performed.motion;
-    return format("{:.2f} s, {} frames at {:g} frames/s, {} words, {} gestures", duration(motion),
-                  motion.frames, motion.fps, made.speech.words.size(), made.performed.gestures.size());
+    const std::size_t words = made.speech.words.size(), gestures = made.performed.gestures.size();
+    // Of speech whose words are not known, those are the places that are stressed.
+    const char* counted =
+        made.speech.words.empty() || !made.speech.words[0].text.empty() ? "word" : "stressed place";
+    return format("{:.2f} s, {} frames at {:g} frames/s, {} {}{}, {} gesture{}", duration(motion),
+                  motion.frames, motion.fps, words, counted, words == 1 ? "" : "s", gestures,
+                  gestures == 1 ? "" : "s");
 }
 
 // person-0.h5, .wav and .json, and the same of the other.

@@ -157,7 +157,7 @@ TEST(Bml, NotesWhatGretaWritesAndNothingHereShows) {
 <pitchaccent id="p1" type="HStar" level="medium" start="s1:a" end="s1:b" importance="0.8"/>
 <pitchaccent id="p2" type="Lstar" start="s1:b" end="s1:c"/></speech></bml>
 <fml><performative id="f1" type="greet" start="s1:a" end="s1:c" character="Greta"/>
-<emotion id="f2" type="neutral" start="s1:a" end="s1:c"/>
+<emotion id="f2" type="neutral" start="s1:a" end="s1:c"/><emotion id="f7" type="joyStrong" start="s1:b" end="s1:c"/>
 <world id="f3" ref_type="person" ref_id="self" start="s1:a" end="s1:b"/>
 <world id="f4" ref_type="thing" type="size-big" start="s1:b" end="s1:c"/>
 <backchannel id="f5" type="agreement" start="1" end="2"/>
@@ -165,7 +165,8 @@ TEST(Bml, NotesWhatGretaWritesAndNothingHereShows) {
          .name = "greta.xml"});
     EXPECT_EQ(text.script, "Hello human!");
     EXPECT_THAT(marks_in(text), ElementsAre("performative=greet(Hello human)", "pitch-accent=Hstar(Hello)",
-                                            "world=size-big(human)", "pitch-accent=Lstar(human)"));
+                                            "emotion=joy(human)", "world=size-big(human)",
+                                            "pitch-accent=Lstar(human)"));
     EXPECT_THAT(
         text.notes,
         ElementsAre("greta.xml:1:2: reaction_type, social_attitude of <fml-apml> change nothing here",
