@@ -10,11 +10,11 @@
 #include "core/files/files.h"
 #include "core/files/json_value.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "study/analysis/hemvip_answers.h"
 #include "study/analysis/simulated_rater.h"
 #include "study/record/answer_values.h"
 #include "study/record/failed_checks.h"
-#include "synth/speech/utf8.h"
 
 namespace chironomia::study::analysis {
 namespace {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "core/utf8.h"
 #include "study/html/html.h"
 
 namespace chironomia::study::analysis {
@@ -62,8 +63,7 @@ std::string Svg::text() const {
 }
 
 double width_of_words(std::string_view text, double size) {
-    const auto letters = std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; });
-    return 0.56 * size * static_cast<double>(letters);
+    return 0.56 * size * static_cast<double>(count_characters(text));
 }
 
 }  // namespace chironomia::study::analysis

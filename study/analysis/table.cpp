@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "core/utf8.h"
 #include "study/html/html.h"
 
 namespace chironomia::study::analysis {
@@ -50,8 +51,7 @@ bool is_formula(const std::string& field) {
 
 // The width of a text on a terminal: code points, not bytes.
 std::size_t width_of(std::string_view text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+    return count_characters(text);
 }
 
 }  // namespace

@@ -6,12 +6,12 @@
 #include "core/error.h"
 #include "core/input_file.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "raster/images/frame_stack.h"
 #include "scenes/scene_file.h"
 #include "skinning/motion/motion_file.h"
 #include "study/analysis/answers.h"
 #include "study/record/study_folder.h"
-#include "synth/speech/utf8.h"
 
 namespace chironomia::study {
 namespace {

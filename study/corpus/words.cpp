@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/utf8.h"
 #include "study/measure/lexical.h"
-#include "synth/speech/utf8.h"
 #include "synth/text/letters.h"
 
 namespace chironomia::study {

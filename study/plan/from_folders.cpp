@@ -12,10 +12,10 @@
 #include "core/files/csv_table.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "skinning/motion/motion_file.h"
 #include "study/plan/parts.h"
-#include "synth/speech/utf8.h"
 #include "synth/text/letters.h"
 
 namespace chironomia::study {

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "synth/markup/aplm.h"
 #include "synth/markup/bml.h"
 #include "synth/markup/functions.h"
@@ -77,15 +78,15 @@ bool declares_latin_1(std::string_view text) {
 
 // The characters of ISO 8859-1 are the first 256 of Unicode.
 std::string utf8_of_latin_1(std::string_view text) {
-    std::string converted;
-    for (const char letter : text) converted += utf8_of(static_cast<unsigned char>(letter));
-    return converted;
+    std::u32string characters;
+    for (const char letter : text) characters += static_cast<unsigned char>(letter);
+    return to_utf8(characters);
 }
 
 // In UTF-8, without the mark that some editors put before it.
 MarkupSource checked(const MarkupSource& source) {
     MarkupSource clean = source;
-    if (declares_latin_1(clean.text) && !is_utf8(clean.text)) clean.text = utf8_of_latin_1(clean.text);
+    if (declares_latin_1(clean.text) && fault_in_utf8(clean.text)) clean.text = utf8_of_latin_1(clean.text);
     if (clean.text.starts_with("\xef\xbb\xbf")) clean.text.erase(0, 3);
     if (clean.text.size() > kMostBytes)
         throw Error(format("{}: holds {} bytes, at most {} are read; part it", source.name, clean.text.size(),

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace chironomia {
 namespace {
@@ -46,21 +47,6 @@ void add_word(std::string_view script, std::size_t begin, std::size_t end, std::
     while (const std::size_t cut = starts_with_any(piece(), kTrimmed)) begin += cut;
     while (const std::size_t cut = ends_with_any(piece(), kTrimmed)) end -= cut;
     if (begin < end) words.push_back({std::string(piece()), begin, end});
-}
-
-// How many bytes the character at the beginning of `text` has; 0 if it is no UTF-8.
-std::size_t character_length(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = byte(0);
-    if (first < 0x80) return 1;
-    const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-    if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-    for (std::size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xc0) != 0x80) return 0;
-    // Longer than needed, a half of a UTF-16 pair, or beyond the last character.
-    const bool bad = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) >= 0xa0) ||
-                     (first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) >= 0x90);
-    return bad ? 0 : length;
 }
 
 constexpr std::string_view kJoiner = "\u200d";
@@ -157,7 +143,7 @@ BlankedEmoji blank_emoji(std::string_view text) {
     BlankedEmoji blanked{.text = std::string(text)};
     EmojiPart before = EmojiPart::none;
     for (std::size_t at = 0; at < text.size();) {
-        const std::size_t length = character_length(text.substr(at));
+        const std::size_t length = first_character(text.substr(at)).value_or(Utf8Character{}).bytes;
         EmojiPart part = emoji_part(text.substr(at, length));
         if (part == EmojiPart::joined && before == EmojiPart::none) part = EmojiPart::none;
         // A picture that is joined to the one before is a part of it.
@@ -170,31 +156,17 @@ BlankedEmoji blank_emoji(std::string_view text) {
     return blanked;
 }
 
-std::size_t count_characters(std::string_view text) {
-    return static_cast<std::size_t>(std::count_if(
-        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
-}
-
-bool is_utf8(std::string_view text) {
-    while (!text.empty()) {
-        const std::size_t length = character_length(text);
-        if (length == 0) return false;
-        text.remove_prefix(length);
-    }
-    return true;
-}
-
 void refuse_bad_text(std::string_view text, std::string_view name) {
     for (std::size_t at = 0; at < text.size();) {
-        const std::size_t length = character_length(text.substr(at));
+        const std::optional<Utf8Character> character = first_character(text.substr(at));
         const auto byte = static_cast<unsigned char>(text[at]);
-        if (length == 0)
+        if (!character)
             throw Error(format("{}: byte 0x{:02x} is no UTF-8; save the text as UTF-8",
                                place_in(text, at, name), byte));
         if (byte == 0x7f || (byte < 0x20 && kSpace.find(text[at]) == std::string_view::npos))
             throw Error(format("{}: control character 0x{:02x} cannot be spoken; remove it",
                                place_in(text, at, name), byte));
-        at += length;
+        at += character->bytes;
     }
 }
 

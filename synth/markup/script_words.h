@@ -43,11 +43,6 @@ struct BlankedEmoji {
 };
 BlankedEmoji blank_emoji(std::string_view text);
 
-// How many characters a UTF-8 text has.
-std::size_t count_characters(std::string_view text);
-
-bool is_utf8(std::string_view text);
-
 // Throws Error with line and column if `text` is no UTF-8, or holds a control character that no text has.
 void refuse_bad_text(std::string_view text, std::string_view name);
 

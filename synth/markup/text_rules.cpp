@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "core/text.h"
+#include "core/utf8.h"
 #include "synth/markup/functions.h"
 #include "synth/markup/script_words.h"
 #include "synth/markup/vocabulary.h"

@@ -9,6 +9,7 @@
 #include "core/files/json.h"
 #include "core/files/json_value.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "synth/markup/script_words.h"
 
 namespace chironomia {

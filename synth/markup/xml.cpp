@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "synth/markup/script_words.h"
 
 namespace chironomia {
@@ -231,15 +232,6 @@ std::size_t end_of_tag(std::string_view text, std::size_t at) {
     return aside ? *aside : read_tag(text, at).end;
 }
 
-std::string utf8_of(unsigned long code) {
-    const auto byte = [](unsigned long bits) { return static_cast<char>(bits); };
-    const auto tail = [&](int shift) { return byte(0x80 | ((code >> shift) & 0x3f)); };
-    if (code < 0x80) return {byte(code)};
-    if (code < 0x800) return {byte(0xc0 | (code >> 6)), tail(0)};
-    if (code < 0x10000) return {byte(0xe0 | (code >> 12)), tail(6), tail(0)};
-    return {byte(0xf0 | (code >> 18)), tail(12), tail(6), tail(0)};
-}
-
 std::string character_of(std::string_view reference) {
     constexpr std::pair<std::string_view, std::string_view> kNamed[] = {
         {"lt", "<"}, {"gt", ">"}, {"amp", "&"}, {"quot", "\""}, {"apos", "'"}};
@@ -251,7 +243,7 @@ std::string character_of(std::string_view reference) {
     const std::string_view allowed = is_hex ? "0123456789abcdefABCDEF" : "0123456789";
     if (digits.empty() || digits.find_first_not_of(allowed) != std::string::npos) return "";
     const unsigned long code = std::stoul(digits, nullptr, is_hex ? 16 : 10);
-    return is_character(code) ? utf8_of(code) : "";
+    return is_character(code) ? to_utf8(std::u32string(1, static_cast<char32_t>(code))) : "";
 }
 
 }  // namespace chironomia

@@ -52,9 +52,6 @@ std::string root_name(std::string_view text);
 // none.
 std::size_t end_of_tag(std::string_view text, std::size_t at);
 
-// The character with this number of Unicode, in UTF-8.
-std::string utf8_of(unsigned long code);
-
 // The character that "lt" or "#233" stands for between "&" and ";"; "" if for none.
 std::string character_of(std::string_view reference);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "synth/speech/utf8.h"
+#include "core/utf8.h"
 
 namespace chironomia {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "synth/speech/helper.h"
-#include "synth/speech/utf8.h"
 #include "synth/speech/word_times.h"
 
 namespace chironomia {

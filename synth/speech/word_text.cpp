@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "synth/speech/utf8.h"
+#include "core/utf8.h"
 
 namespace chironomia {
 namespace {

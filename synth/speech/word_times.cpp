@@ -5,8 +5,8 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "core/utf8.h"
 #include "synth/speech/phonetics.h"
-#include "synth/speech/utf8.h"
 
 namespace chironomia {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "synth/speech/utf8.h"
+#include "core/utf8.h"
 
 namespace chironomia {
 namespace {

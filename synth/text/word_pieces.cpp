@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/text.h"
-#include "synth/speech/utf8.h"
+#include "core/utf8.h"
 #include "synth/text/letters.h"
 #include "synth/text/stable_hash.h"
 

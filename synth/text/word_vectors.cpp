@@ -6,8 +6,8 @@
 #include <unordered_map>
 
 #include "core/random.h"
+#include "core/utf8.h"
 #include "synth/corpus/records.h"
-#include "synth/speech/utf8.h"
 #include "synth/text/letters.h"
 #include "synth/text/stable_hash.h"
 #include "synth/text/word_class.h"

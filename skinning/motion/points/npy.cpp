@@ -10,6 +10,7 @@
 #include "core/files/raw_number.h"
 #include "core/files/zip_archive.h"
 #include "core/text.h"
+#include "core/utf8.h"
 
 namespace chironomia {
 namespace {
@@ -72,36 +73,17 @@ std::optional<Header> parse_header(std::string_view dictionary) {
     return header;
 }
 
-void append_utf8(std::string& text, uint32_t code) {
-    const auto put = [&](uint32_t byte) { text += static_cast<char>(byte); };
-    if (code < 0x80) {
-        put(code);
-    } else if (code < 0x800) {
-        put(0xC0 | code >> 6);
-        put(0x80 | (code & 63));
-    } else if (code < 0x10000) {
-        put(0xE0 | code >> 12);
-        put(0x80 | (code >> 6 & 63));
-        put(0x80 | (code & 63));
-    } else {
-        put(0xF0 | (code >> 18 & 7));
-        put(0x80 | (code >> 12 & 63));
-        put(0x80 | (code >> 6 & 63));
-        put(0x80 | (code & 63));
-    }
-}
-
 // One string of NumPy: of 4-byte characters (U) or bytes (S), filled up with zeros.
 std::string text_at(const std::byte* bytes, size_t characters, bool wide, bool swapped) {
     static const ReadRawNumber read_character = raw_number_reader("u4");
-    std::string text;
+    std::u32string text;
     for (size_t i = 0; i < characters; ++i) {
         const uint32_t code = wide ? static_cast<uint32_t>(read_character(bytes + 4 * i, swapped))
                                    : static_cast<uint32_t>(bytes[i]);
         if (code == 0) break;
-        append_utf8(text, code);
+        text += static_cast<char32_t>(code);
     }
-    return text;
+    return to_utf8(text);
 }
 
 // Where element `i` of C order lies in Fortran order.

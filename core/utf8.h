@@ -1,4 +1,4 @@
-// UTF-8, as the scripts and the files of words are written.
+// UTF-8 (RFC 3629).
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,20 @@
 
 namespace chironomia {
 
-// The place of the first byte that belongs to no character (RFC 3629: no overlong forms, no surrogates);
-// nothing if the text is UTF-8.
+struct Utf8Character {
+    char32_t code = 0;
+    std::size_t bytes = 1;
+};
+
+// The character that the text begins with; nothing if it begins with none (overlong forms and surrogates are none). The
+// text is not empty.
+std::optional<Utf8Character> first_character(std::string_view text);
+
+// The place of the first byte that belongs to no character; nothing if the text is UTF-8.
 std::optional<std::size_t> fault_in_utf8(std::string_view text);
+
+// How many characters a text has, which is UTF-8.
+std::size_t count_characters(std::string_view text);
 
 // The byte at which each character begins, and the length of the text after them.
 std::vector<std::size_t> starts_of_characters(std::string_view text);

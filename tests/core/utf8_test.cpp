@@ -1,4 +1,4 @@
-#include "synth/speech/utf8.h"
+#include "core/utf8.h"
 
 #include <gmock/gmock.h>
 
@@ -23,6 +23,11 @@ TEST(Utf8, FindsTheFirstByteOfNoCharacter) {
     EXPECT_EQ(fault_in_utf8("\xe0\x80\xaf"), 0u) << "overlong";
     EXPECT_EQ(fault_in_utf8("\xed\xa0\x80"), 0u) << "a surrogate";
     EXPECT_EQ(fault_in_utf8("\xf4\x90\x80\x80"), 0u) << "behind the last character";
+}
+
+TEST(Utf8, CountsCharacters) {
+    EXPECT_EQ(count_characters("aé€😀b"), 5u);
+    EXPECT_EQ(count_characters(""), 0u);
 }
 
 TEST(Utf8, KnowsWhereCharactersBegin) {

@@ -1,5 +1,6 @@
-#include "synth/speech/utf8.h"
+#include "core/utf8.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace chironomia {
@@ -9,31 +10,35 @@ bool is_continuation(char byte) {
     return (static_cast<unsigned char>(byte) & 0xc0) == 0x80;
 }
 
-// Bytes of the character that begins here; 0 if none does.
-std::size_t length_of_character(std::string_view text) {
+}  // namespace
+
+std::optional<Utf8Character> first_character(std::string_view text) {
     const auto first = static_cast<unsigned char>(text[0]);
-    if (first < 0x80) return 1;
-    const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-    if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-    std::uint32_t code = first & (0x7f >> length);
-    for (std::size_t i = 1; i < length; ++i) {
-        if (!is_continuation(text[i])) return 0;
+    if (first < 0x80) return Utf8Character{first, 1};
+    const std::size_t bytes = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+    if (first < 0xc2 || first > 0xf4 || text.size() < bytes) return std::nullopt;
+    char32_t code = first & (0x7f >> bytes);
+    for (std::size_t i = 1; i < bytes; ++i) {
+        if (!is_continuation(text[i])) return std::nullopt;
         code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3f);
     }
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
+    constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
     const bool is_surrogate = code >= 0xd800 && code < 0xe000;
-    return code < kLeast[length] || code > 0x10ffff || is_surrogate ? 0 : length;
+    if (code < kLeast[bytes] || code > 0x10ffff || is_surrogate) return std::nullopt;
+    return Utf8Character{code, bytes};
 }
-
-}  // namespace
 
 std::optional<std::size_t> fault_in_utf8(std::string_view text) {
     for (std::size_t place = 0; place < text.size();) {
-        const std::size_t length = length_of_character(text.substr(place));
-        if (length == 0) return place;
-        place += length;
+        const std::optional<Utf8Character> character = first_character(text.substr(place));
+        if (!character) return place;
+        place += character->bytes;
     }
     return std::nullopt;
+}
+
+std::size_t count_characters(std::string_view text) {
+    return static_cast<std::size_t>(std::ranges::count_if(text, [](char c) { return !is_continuation(c); }));
 }
 
 std::vector<std::size_t> starts_of_characters(std::string_view text) {
