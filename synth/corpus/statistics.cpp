@@ -77,19 +77,29 @@ void add_rows(MomentsOf& moments, const std::string& array, std::size_t columns,
     for (std::size_t i = 0; i < rows.size(); ++i) of_array[i % columns].add(rows[i]);
 }
 
+// Of places in the picture, a column for each coordinate. A point that the tracker lost lies at (0, 0) there.
+void add_seen(MomentsOf& moments, const std::string& array, const std::vector<float>& places,
+              const std::vector<float>& confidence) {
+    const std::size_t columns =
+        2 * (array.starts_with("pose") ? IntervalRecord::kJoints : IntervalRecord::kFacePoints);
+    std::vector<Moments>& of_array = moments[array];
+    of_array.resize(columns);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (confidence[i] > 0) of_array[i % columns].add(places[i]);
+}
+
 CorpusStatistics of_intervals(const CorpusIndex& corpus) {
-    constexpr std::size_t kPose = 2 * IntervalRecord::kJoints, kFace = 2 * IntervalRecord::kFacePoints;
     MomentsOf moments;
     for (const CorpusEntry& entry : corpus.of(Split::train)) {
         const IntervalRecord record = read_interval(corpus, entry);
         add_rows(moments, "audio/log_mel_400", 1, record.mel_400);
         add_rows(moments, "audio/log_mel_512", 1, record.mel_512);
-        add_rows(moments, "pose/data", kPose, record.pose);
-        add_rows(moments, "pose/normalize", kPose, record.pose_normalized);
+        add_seen(moments, "pose/data", record.pose, record.pose_confidence);
+        add_seen(moments, "pose/normalize", record.pose_normalized, record.pose_confidence);
         add_rows(moments, "text/bert", kWordVector, record.vectors);
         if (record.face.empty()) continue;
-        add_rows(moments, "face/data", kFace, record.face);
-        add_rows(moments, "face/normalize", kFace, record.face_normalized);
+        add_seen(moments, "face/data", record.face, record.face_confidence);
+        add_seen(moments, "face/normalize", record.face_normalized, record.face_confidence);
     }
     CorpusStatistics statistics{.kind = CorpusKind::intervals};
     for (const auto& [array, columns] : moments) {

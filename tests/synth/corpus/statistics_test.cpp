@@ -99,6 +99,29 @@ std::string bytes_of(const CorpusIndex& corpus) {
     return read_text(corpus.folder / "statistics.json");
 }
 
+// Where a tracker lost a point, its place is not its own.
+TEST(Statistics, AreOfPointsThatAreSeen) {
+    constexpr std::size_t kWidth = 2 * IntervalRecord::kJoints;
+    const TemporaryFolder folder;
+    IntervalRecord train = sample_interval("i1", "a");
+    for (std::size_t t = 0; t < train.frames(); ++t) {
+        const std::size_t at = t * kWidth + 5;
+        train.pose[at] = train.pose_normalized[at] = t % 2 == 0 ? 3.0f : 7.0f;
+        if (t % 4 > 1) continue;
+        train.pose[at] = train.pose_normalized[at] = train.pose_confidence[at] = 0;
+    }
+    write_interval(folder.path(), train);
+    const CorpusIndex index =
+        sample_index(folder.path(), CorpusKind::intervals,
+                     {{.id = "i1", .speaker = "a", .split = Split::train, .seconds = 2}});
+    write_corpus_index(index);
+    const CorpusStatistics found = measure_statistics(index);
+    for (const char* array : {"pose/data", "pose/normalize"}) {
+        EXPECT_NEAR(found.of(array)[5].zero, 5, 0.1) << array;
+        EXPECT_NEAR(found.of(array)[5].one, 9, 0.1) << array;
+    }
+}
+
 TEST(Statistics, DoNotChangeByAByteWithTheOtherSplits) {
     const TemporaryFolder one, other;
     EXPECT_EQ(bytes_of(dyads(one / "d", 0.1)), bytes_of(dyads(other / "d", 2.2)));
