@@ -66,8 +66,10 @@ class StageLessons {
           speakers_(std::move(speakers)),
           train_(index, index.of(Split::train), form),
           validation_(index, validation_entries(index), form),
-          windows_(style_windows(train_, MixStageSize::kFrames, training.hop)),
-          validated_(style_windows(validation_, MixStageSize::kFrames, MixStageSize::kFrames)) {}
+          windows_(
+              whole_windows(train_, MixStageSize::kFrames, training.hop, index.folder.string() + ", train")),
+          validated_(whole_windows(validation_, MixStageSize::kFrames, MixStageSize::kFrames,
+                                   index.folder.string() + ", validation")) {}
 
     std::size_t examples() const { return training_.epoch.batch * training_.epoch.batches; }
     std::vector<Batch> draw(Random& random) const {

@@ -168,8 +168,9 @@ class JudgeLessons {
           speakers_(order.speakers),
           train_(index, judge_entries(index, speakers_, Split::train), form),
           validation_(index, judge_entries(index, speakers_, Split::validation), form),
-          windows_(style_windows(train_, kJudgedFrames, training_.hop)),
-          validated_(style_windows(validation_, kJudgedFrames, kJudgedFrames)),
+          windows_(whole_windows(train_, kJudgedFrames, training_.hop, index.folder.string() + ", train")),
+          validated_(whole_windows(validation_, kJudgedFrames, kJudgedFrames,
+                                   index.folder.string() + ", validation")),
           batches_(std::max<std::size_t>(1, windows_.size() / training_.batch)) {}
 
     std::size_t examples() const { return batches_ * training_.batch; }

@@ -5,6 +5,10 @@
 #include <numeric>
 #include <string>
 
+#include "core/error.h"
+#include "core/text.h"
+#include "synth/corpus/records.h"
+
 namespace chironomia {
 
 using torch::Tensor;
@@ -53,6 +57,19 @@ std::vector<StyleWindow> style_windows(const StyleRecords& records, std::int64_t
         windows.push_back({entry, 0});
         for (std::int64_t first = hop; first < records.frames_of(entry) - frames; first += hop)
             windows.push_back({entry, first});
+    }
+    return windows;
+}
+
+std::vector<StyleWindow> whole_windows(const StyleRecords& records, std::int64_t frames, std::int64_t hop,
+                                       const std::string& of_what) {
+    std::vector<StyleWindow> windows = style_windows(records, frames, hop);
+    std::erase_if(windows,
+                  [&](const StyleWindow& window) { return records.frames_of(window.entry) <= frames; });
+    if (windows.empty()) {
+        throw Error(
+            format("{}: no interval is longer than a segment of {} frames ({:.1f} s); give longer ones",
+                   of_what, frames, static_cast<double>(frames) / IntervalRecord::kFps));
     }
     return windows;
 }

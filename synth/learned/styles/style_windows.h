@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/random.h"
@@ -21,6 +22,11 @@ struct StyleWindow {
 // The segments of `frames` frames of each record, `hop` apart; PATS's rule: those that begin before `frames` frames
 // from the end (A20). A record that is no longer than a segment has one.
 std::vector<StyleWindow> style_windows(const StyleRecords& records, std::int64_t frames, std::int64_t hop);
+
+// Those that models learn from and are chosen by: whole ones, of the records that are longer than a segment, as PATS's
+// loader has them. Throws Error if there is none; `of_what` names the records.
+std::vector<StyleWindow> whole_windows(const StyleRecords& records, std::int64_t frames, std::int64_t hop,
+                                       const std::string& of_what);
 
 // The segments side by side; one that ends after its record goes on with the record's last frame.
 StyleSegments gather(StyleRecords& records, std::span<const StyleWindow> windows, std::int64_t frames);

@@ -124,8 +124,8 @@ class StyleLessons {
           frames_(order.size().ast.frames),
           train_(index, index.of(Split::train), form),
           validation_(index, validation_entries(index), form),
-          windows_(style_windows(train_, frames_, training_.hop)),
-          validated_(style_windows(validation_, frames_, frames_)) {}
+          windows_(whole_windows(train_, frames_, training_.hop, index.folder.string() + ", train")),
+          validated_(whole_windows(validation_, frames_, frames_, index.folder.string() + ", validation")) {}
 
     std::size_t examples() const { return windows_.size(); }
     std::vector<Batch> draw(Random& random) {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
+#include "core/text.h"
 #include "synth/learned/training/model_choices.h"
 
 namespace chironomia {
@@ -110,7 +112,15 @@ ZsMstmTraining zs_mstm_training(ZsMstmVersion version, std::string_view preset, 
         training.clip = 5;
         training.hop = 16;
     }
-    if (choices.at("A56") == "constant") training.rate.kind = LearningRate::Kind::warm_up;
+    if (choices.at("A56") == "constant") {
+        if (training.rate.kind != LearningRate::Kind::noam) {
+            throw Error(
+                format("A56 is \"constant\", but the learning rate of ZS-MSTM 2.0 goes up and down without a "
+                       "warm-up with the preset \"{}\"; leave --rate-after-warm-up out",
+                       preset));
+        }
+        training.rate.kind = LearningRate::Kind::warm_up;
+    }
     if (choices.at("A54") == "unbounded") training.lambda_most = std::numeric_limits<double>::infinity();
     if (choices.at("ablation") == "fader") training.lambda_most = 0;
     training.adversary_moves_style = choices.at("A53") == "both";

@@ -52,6 +52,19 @@ TEST(StyleWindows, BeginWherePatsCutsThem) {
     EXPECT_THAT(beginnings(20, 64, 64), ElementsAre(0));
 }
 
+// What a model learns from is not filled up.
+TEST(StyleWindows, AreWholeInLessons) {
+    const StyleRecords records = counting_records({20, 64, 130});
+    std::vector<StyleWindow> windows = whole_windows(records, 64, 64, "people, train");
+    ASSERT_EQ(windows.size(), 2u);
+    EXPECT_EQ(windows[0].entry, 2u);
+    EXPECT_EQ(windows[1].first, 64);
+    EXPECT_EQ(refusal_of([] {
+                  whole_windows(counting_records({20, 64}), 64, 8, "people, train");
+              }),
+              "people, train: no interval is longer than a segment of 64 frames (4.3 s); give longer ones");
+}
+
 TEST(Gather, GoesOnWithTheLastFrame) {
     StyleRecords records = counting_records({5});
     const StyleWindow window{0, 2};

@@ -98,6 +98,16 @@ TEST(ZsMstmJobsRefuse, WeightsForTheSmallTransformer) {
     EXPECT_THAT(refusal_of([&] { answer(job); }), HasSubstr("model.safetensors"));
 }
 
+TEST(ZsMstmJobsRefuse, AWarmUpThatTheRateDoesNotHave) {
+    const TemporaryFolder folder;
+    Json job = style_training(folder, "zs-mstm-2", 1);
+    job["preset"] = "paper";
+    job["options"]["A56"] = "constant";
+    EXPECT_THAT(refusal_of([&] { answer(job); }),
+                HasSubstr("goes up and down without a warm-up with the preset \"paper\"; leave "
+                          "--rate-after-warm-up out"));
+}
+
 TEST(ZsMstmJobsRefuse, CheckpointsOfUnknownChoices) {
     const TemporaryFolder folder;
     answer(style_training(folder, "zs-mstm-1", 1));
