@@ -105,6 +105,24 @@ PointPaths paths_at(const PointPaths& paths, double fps) {
     return slower;
 }
 
+PointPaths three_frame_means(PointPaths paths) {
+    const PointPaths raw = paths;
+    const std::size_t frames = raw.frames();
+    for (std::size_t t = 0; t < frames; ++t) {
+        for (std::size_t j = 0; j < raw.joints; ++j) {
+            Vec3 sum(0);
+            float count = 0;
+            for (std::size_t near = t == 0 ? 0 : t - 1; near < std::min(t + 2, frames); ++near) {
+                if (!raw.has(near, j)) continue;
+                sum += raw.points[near * raw.joints + j];
+                ++count;
+            }
+            if (raw.has(t, j)) paths.points[t * raw.joints + j] = sum / count;
+        }
+    }
+    return paths;
+}
+
 PointPaths bridge_short_gaps(PointPaths paths, std::size_t frames) {
     if (paths.missing.empty()) return paths;
     const PointPaths seen = paths;

@@ -30,6 +30,10 @@ PointPaths paths_of(const PointPaths& paths, std::span<const std::size_t> joints
 // splines: straight lines have corners, which are jerk. A point is missing if one of the two frames beside it lacks it.
 PointPaths paths_at(const PointPaths& paths, double fps);
 
+// Each point in the mean of its own frame and of those beside it that have it, against the noise of trackers, which
+// grows in accelerations and jerk. A point that is missing stays so.
+PointPaths three_frame_means(PointPaths paths);
+
 // The paths with each point on a cubic curve where it is missing for at most `frames` frames between two that have it.
 // The curve goes on as the point moved before and behind the gap.
 PointPaths bridge_short_gaps(PointPaths paths, std::size_t frames);

@@ -375,7 +375,8 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
                                       options.resampling);
         }
         system.poses = score_poses(own, options.resampling);
-        if (has_transfers(model)) system.style = score_styles(model, options.resampling);
+        if (has_transfers(model))
+            system.style = score_styles(model, options.resampling, options.style_points);
         evaluation.systems.push_back(std::move(system));
     }
     for (std::string& note : notes_on(evaluation)) evaluation.notes.push_back(std::move(note));

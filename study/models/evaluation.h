@@ -21,6 +21,7 @@ enum class ActivationScale { raw, normalised };
 struct EvaluationOptions {
     ActivationScale activation = ActivationScale::raw;
     LagSummary lag_summary = LagSummary::signed_most;
+    StylePoints style_points = StylePoints::raw;
     Resampling resampling = kUtterances;
 };
 

@@ -25,10 +25,11 @@ struct PredictedBodies {
     const Predictions& predictions;
     std::vector<std::pair<std::size_t, std::size_t>> points{};
     std::vector<std::size_t> wrists{};  // of the points
+    StylePoints kind = StylePoints::raw;
 };
 
-PredictedBodies bodies_of(const Predictions& predictions) {
-    PredictedBodies bodies{.predictions = predictions};
+PredictedBodies bodies_of(const Predictions& predictions, StylePoints kind) {
+    PredictedBodies bodies{.predictions = predictions, .kind = kind};
     const auto& names = predictions.features;
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (!names[i].ends_with(" x") || names[i].starts_with("Face")) continue;
@@ -52,6 +53,11 @@ PointPaths paths_of_item(const PredictedBodies& bodies, const PredictedItem& ite
     for (std::size_t t = 0; t < item.truth.size() / width; ++t)
         for (const auto& [x, y] : bodies.points) paths.points.emplace_back(restored(t, x), restored(t, y), 0);
     return paths;
+}
+
+StyleMetrics metrics_of(const PredictedBodies& bodies, const PointPaths& paths) {
+    return style_metrics(bodies.kind == StylePoints::smoothed ? three_frame_means(paths) : paths,
+                         bodies.wrists);
 }
 
 // In the units of the features.
@@ -84,8 +90,7 @@ std::map<std::string, TargetStyle> targets_of(const PredictedBodies& bodies) {
         if (is_transfer(item)) continue;
         TargetStyle& target = targets[item.speaker];
         target.clips.push_back(&item);
-        const StyleMetrics metrics =
-            style_metrics(paths_of_item(bodies, item, &PredictedItem::truth), bodies.wrists);
+        const StyleMetrics metrics = metrics_of(bodies, paths_of_item(bodies, item, &PredictedItem::truth));
         for (std::size_t m = 0; m < metrics.size(); ++m)
             if (metrics[m]) target.metrics[m].push_back(*metrics[m]);
     }
@@ -126,9 +131,8 @@ void ClipNumbers::add(const PredictedBodies& bodies, const PredictedItem& item, 
     const std::size_t width = predictions.features.size();
     const PointPaths source = paths_of_item(bodies, item, &PredictedItem::truth);
     const PointPaths made = paths_of_item(bodies, item, &PredictedItem::prediction);
-    styles.push_back({.source = style_metrics(source, bodies.wrists),
-                      .target = target.means(),
-                      .model = style_metrics(made, bodies.wrists)});
+    styles.push_back(
+        {.source = metrics_of(bodies, source), .target = target.means(), .model = metrics_of(bodies, made)});
     timed.push_back(
         {.made = wrist_speeds(made, bodies.wrists), .source = wrist_speeds(source, bodies.wrists)});
     content.push_back(content_preservation(item.truth, item.prediction));
@@ -147,7 +151,7 @@ void ClipNumbers::add(const PredictedBodies& bodies, const PredictedItem& item, 
 }  // namespace
 
 std::optional<PoseScores> score_poses(const Predictions& own, const Resampling& resampling) {
-    const PredictedBodies bodies = bodies_of(own);
+    const PredictedBodies bodies = bodies_of(own, StylePoints::raw);
     if (bodies.points.empty()) return std::nullopt;
     std::vector<std::optional<double>> l1, velocity_l1, pck_01, pck_02;
     Vectors people, model;
@@ -181,8 +185,9 @@ Predictions own_styles(const Predictions& predictions) {
     return own;
 }
 
-std::optional<StyleScores> score_styles(const Predictions& predictions, const Resampling& resampling) {
-    const PredictedBodies bodies = bodies_of(predictions);
+std::optional<StyleScores> score_styles(const Predictions& predictions, const Resampling& resampling,
+                                        StylePoints points) {
+    const PredictedBodies bodies = bodies_of(predictions, points);
     if (bodies.points.empty()) return std::nullopt;
     const std::map<std::string, TargetStyle> targets = targets_of(bodies);
     ClipNumbers numbers;

@@ -14,6 +14,10 @@
 
 namespace chironomia::study {
 
+// Of which points Dist_avg is: as they are, or their three_frame_means(). What is recorded carries a tracker's noise,
+// what a model makes hardly does.
+enum class StylePoints { raw, smoothed };
+
 // Of Fares 2023, sections 6.7 and 7.5.
 struct StyleScores {
     std::size_t clips = 0;  // of one speaker in the style of another
@@ -45,6 +49,7 @@ Predictions own_styles(const Predictions& predictions);
 
 // The target of a clip is what its speaker's own items did: metrics are means over them. Clips whose target has no item
 // are left out. None without transfers or points of a body.
-std::optional<StyleScores> score_styles(const Predictions& predictions, const Resampling& resampling);
+std::optional<StyleScores> score_styles(const Predictions& predictions, const Resampling& resampling,
+                                        StylePoints points = StylePoints::raw);
 
 }  // namespace chironomia::study

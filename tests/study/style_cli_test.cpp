@@ -270,6 +270,11 @@ TEST_F(Style, IsComparedWithSourceAndTarget) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const Json tables = Json::parse(outcome.out)["tables"];
     ASSERT_EQ(tables["styles"].size(), 7u);
+    const Outcome smoothed = run_chironomia(
+        {"evaluate", "--checkpoint", model(), "--corpus", corpus(), "--split", "test", "--option", "pairs=2",
+         "--samples", "100", "--quiet", "--style-points", "smoothed", "--json", "--out", file("smoothed")});
+    ASSERT_EQ(smoothed.exit_code, 0) << smoothed.err;
+    EXPECT_NE(Json::parse(smoothed.out)["tables"]["styles"][5]["ours"], tables["styles"][5]["ours"]);
     for (const Json& row : tables["styles"])
         EXPECT_NEAR(row["source"].get<double>() + row["ours"].get<double>(), 100, 1e-9) << row;
     ASSERT_EQ(tables["poses"].size(), 1u);

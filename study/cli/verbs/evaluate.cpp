@@ -241,6 +241,11 @@ void add_metric_options(CLI::App& verb, EvaluationOptions& options) {
                             {"absolute", LagSummary::absolute_most},
                             {"mean", LagSummary::mean}})
         ->description("TLCC of all lags: the largest |r|, the mean r, or the largest r [signed]");
+    add_choice<StylePoints>(verb, "--style-points", options.style_points,
+                            {{"raw", StylePoints::raw}, {"smoothed", StylePoints::smoothed}})
+        ->description(
+            "Dist_avg of points as they are, or of their means over three frames, without most of the "
+            "noise of trackers [raw]");
 }
 
 // What is judged must be there, and a corpus for whatever works on its records.

@@ -72,6 +72,20 @@ TEST(PathsAt, MissesWhatLiesBesideAMissingFrame) {
     EXPECT_EQ(slower.points[2], paths.points[3]);
 }
 
+TEST(ThreeFrameMeans, AreOfTheFramesThatHaveThePoint) {
+    PointPaths paths{
+        .fps = 1, .joints = 1, .points = {{0, 0, 0}, {3, 0, 0}, {6, 0, 0}, {0, 0, 0}, {9, 0, 0}}};
+    const PointPaths whole = three_frame_means(paths);
+    EXPECT_EQ(whole.points[0].x, 1.5f);
+    EXPECT_EQ(whole.points[1].x, 3);
+    EXPECT_EQ(whole.points[4].x, 4.5f);
+    paths.missing = {false, false, false, true, false};
+    const PointPaths means = three_frame_means(paths);
+    EXPECT_EQ(means.points[2].x, 4.5f);
+    EXPECT_EQ(means.points[4].x, 9);
+    EXPECT_FALSE(means.has(3, 0));
+}
+
 TEST(Kinematics, OfSomePointsAlone) {
     PointPaths paths{.fps = 1, .joints = 2, .points = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 3, 4}}};
     EXPECT_EQ(kinematics(paths).velocity, 3);

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/random.h"
 #include "core/text.h"
 #include "study/models/evaluation_baselines.h"
 #include "study/models/evaluation_tables.h"
@@ -281,6 +284,40 @@ TEST(CheckTruth, ComparesPointsThatWereSeen) {
     points.items[0].truth[2 * 4] += 0.3f;
     EXPECT_THAT(refusal_of([&] { check_truth(points, corpus, "p.h5"); }),
                 HasSubstr("p.h5: /truth of a_1>ben: RWrist x of frame 4 is "));
+}
+
+// A wrist that goes round, and a tracker's noise on what is recorded.
+std::vector<float> wrist_round(double turns_per_s, double noise, std::uint64_t seed) {
+    std::vector<float> places;
+    Random random(seed);
+    for (int t = 0; t < 120; ++t) {
+        const double angle = 2 * std::numbers::pi * turns_per_s * t / 15;
+        for (const double place : {std::cos(angle), std::sin(angle)})
+            places.push_back(static_cast<float>(0.3 * place + noise * random.normal()));
+    }
+    return places;
+}
+
+// Moved as ben moves, but for the noise that only a tracker has.
+TEST(ScoreStyles, MayLeaveOutTheNoiseOfTrackers) {
+    Predictions predictions{
+        .model = "m", .fps = 15, .features = {"RWrist x", "RWrist y"}, .scale = {{0, 100}, {0, 100}}};
+    for (const bool is_ben : {false, true}) {
+        PredictedItem own{.id = is_ben ? "b" : "a", .speaker = is_ben ? "ben" : "anna"};
+        own.truth = own.prediction = wrist_round(is_ben ? 0.8 : 0.4, 0.004, is_ben ? 1 : 2);
+        predictions.items.push_back(own);
+    }
+    predictions.items.push_back({.id = "a>ben", .speaker = "anna", .style = "ben"});
+    predictions.items[2].truth = predictions.items[0].truth;
+    predictions.items[2].prediction = wrist_round(0.8, 0, 3);
+    const auto far = [&](StyleMetric metric, StylePoints points) {
+        return score_styles(predictions, kUtterances, points)
+            ->distances[static_cast<std::size_t>(metric)]
+            ->model;
+    };
+    EXPECT_LT(far(StyleMetric::wrist_velocity, StylePoints::raw), 10);
+    EXPECT_GT(far(StyleMetric::wrist_jerk, StylePoints::raw), 60);
+    EXPECT_LT(far(StyleMetric::wrist_jerk, StylePoints::smoothed), 40);
 }
 
 TEST(Published, HoldsWhatThePapersPrint) {
