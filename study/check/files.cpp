@@ -84,6 +84,10 @@ std::string fault_of_unpacked_times(const fs::path& folder) {
     return "";
 }
 
+std::string counted(std::size_t count, std::string_view thing) {
+    return format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 // What a page shows, whoever stands where.
 std::pair<std::string, std::set<std::size_t>> shown_by(const KeyPage& page) {
     const std::vector<std::size_t> conditions = conditions_of(page);
@@ -162,6 +166,28 @@ bool same_sheets(const Design& a, const Design& b) {
     return true;
 }
 
+// What is wrong with the places of pages where they rotate and participants take the orders again and again, or "".
+// Earlier versions of the program made so few orders that this favoured conditions.
+std::string fault_of_orders_taken_again(const StudyRecord& study, const Design& design) {
+    DesignShape shape = study.key.shape;
+    if (shape.each_clip_once || shape.pages_per_sheet) return "";
+    const std::size_t orders = design.sheets.size(), participants = study.key.participants.value_or(0);
+    // Of any number of participants, what one round of the orders leaves adds up.
+    const std::vector<std::size_t> apart =
+        places_apart(participants > 0 ? taken_in_turn(design, participants) : design);
+    const std::size_t most = *std::max_element(apart.begin(), apart.end());
+    const std::size_t limit = participants > 0 ? place_limit(shape.groups.front().size()) : 0;
+    if (most <= limit) return "";
+    return format(
+        "{} leave the conditions of a page {} apart at its places{}, at most {} is balanced; build the study {}",
+        counted(orders, "order"), most,
+        participants > 0 ? format(" after {} participants", participants) : " each time that all are taken",
+        limit,
+        study.plan.contains("orders")
+            ? format("with \"orders\": {}, or without \"orders\"", usual_sheets(shape))
+            : format("again, as this version of the program makes {} orders", usual_sheets(shape)));
+}
+
 // What is wrong with the places of pages where they rotate, or "".
 std::string fault_of_places(const StudyRecord& study, const Trials& trials) {
     const std::vector<std::size_t> apart = places_apart(trials.design);
@@ -173,7 +199,7 @@ std::string fault_of_places(const StudyRecord& study, const Trials& trials) {
             return format("page {}: its conditions stand at its places {} apart, at most {} is balanced",
                           study.key.pages[i].token, apart[trial], limit);
     }
-    return "";
+    return fault_of_orders_taken_again(study, trials.design);
 }
 
 // What sides are balanced over, and how far.
@@ -184,10 +210,6 @@ std::string balance_of(const DesignShape& shape) {
     if (shape.sides == SideRule::per_page)
         return "each either way to within 1 for each participant, a page always the same way";
     return "each either way to within 1";
-}
-
-std::string counted(std::size_t count, std::string_view thing) {
-    return format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
 // What the plan says of attention checks, as far as it takes to make them again.

@@ -99,6 +99,14 @@ std::vector<DesignPage> draw_sequence(const DesignShape& shape, std::size_t bloc
     return sequence;
 }
 
+// How many sheets of a block lead its pages, all of which they show, through the positions, and where places rotate the
+// conditions of each page through the places.
+std::size_t sheets_of_whole_block(const DesignShape& shape, std::size_t pages) {
+    const std::size_t rows = count_rows(pages);
+    if (shape.sides != SideRule::rotate) return rows;
+    return std::lcm(rows, count_rows(shape.groups.front().size()));
+}
+
 std::size_t ways_of(const DesignShape& shape) {
     return shape.sides == SideRule::mirror ? 2 : 1;
 }
@@ -270,11 +278,17 @@ std::size_t full_sheets(const DesignShape& shape) {
         const std::size_t shown = count_shown(shape, block);
         const std::size_t pages = count_clips(shape, block) * shape.groups.size();
         const std::size_t sets = pages / std::gcd(pages, shown);
-        const std::size_t rows = count_rows(shown);
-        const std::size_t rounds = std::clamp<std::size_t>(kMostSheets / sets, 1, rows);
-        most = std::max(most, shown == pages ? rows : sets * rounds);
+        const std::size_t rounds = std::clamp<std::size_t>(kMostSheets / sets, 1, count_rows(shown));
+        most = std::max(most, shown == pages ? sheets_of_whole_block(shape, shown) : sets * rounds);
     }
     return most * ways_of(shape) * count_blocks(shape);
+}
+
+std::size_t usual_sheets(const DesignShape& shape) {
+    const std::size_t full = full_sheets(shape);
+    if (full <= kMostSheets || shape.sides != SideRule::rotate) return std::min(full, kMostSheets);
+    const std::size_t round = count_rows(shape.groups.front().size()) * count_blocks(shape);
+    return std::max(round, kMostSheets / round * round);
 }
 
 Design draw_design(const DesignShape& shape, std::uint64_t seed) {
@@ -287,7 +301,7 @@ Design draw_design(const DesignShape& shape, std::uint64_t seed) {
         const std::vector<DesignPage> pages = draw_sequence(shape, block, seed);
         design.pages.insert(design.pages.end(), pages.begin(), pages.end());
     }
-    const std::size_t wanted = shape.sheets.value_or(std::min(full_sheets(shape), kMostSheets));
+    const std::size_t wanted = shape.sheets.value_or(usual_sheets(shape));
     for (std::size_t i = 0; i < wanted; ++i) {
         const std::size_t block = i % blocks;
         const std::size_t of_block = (wanted - block + blocks - 1) / blocks;
@@ -353,6 +367,13 @@ std::vector<std::size_t> places_apart(const Design& design) {
         apart.push_back(range.most - range.least);
     }
     return apart;
+}
+
+Design taken_in_turn(const Design& design, std::size_t participants) {
+    Design taken{.pages = design.pages, .sheets = {}};
+    for (std::size_t i = 0; i < participants; ++i)
+        taken.sheets.push_back(design.sheets[i % design.sheets.size()]);
+    return taken;
 }
 
 std::size_t place_limit(std::size_t places) {

@@ -57,7 +57,7 @@ struct DesignShape {
     std::vector<std::size_t> block_of_clip = {};      // empty: one block
     bool each_clip_once = false;                      // a sheet shows one of the groups of each clip
     std::optional<std::size_t> pages_per_sheet = {};  // none: all of the block, or one of each clip
-    std::optional<std::size_t> sheets = {};           // none: full_sheets(), at most kMostSheets
+    std::optional<std::size_t> sheets = {};           // none: usual_sheets()
 };
 
 inline constexpr std::size_t kMostSheets = 64;
@@ -72,10 +72,15 @@ std::size_t count_shown(const DesignShape& shape, std::size_t block);
 
 // How many sheets it takes until everything is balanced: where a sheet shows all pages of its block,
 // Williams, "Experimental designs balanced for the estimation of residual effects of treatments", 1949 (P
-// orders for an even number of pages, 2 P for an odd one); else until every page was shown equally often, and then so
+// orders for an even number of pages, 2 P for an odd one), and where places rotate so many times that, as it takes to
+// lead the conditions through the places, too; else until every page was shown equally often, and then so
 // many times that, up to kMostSheets, as it takes to lead pages through the positions. Twice as many where sides are
 // mirrored.
 std::size_t full_sheets(const DesignShape& shape);
+
+// The same, but at most kMostSheets. Where places rotate, as many as give each condition of a page each place equally
+// often, in every block; with many blocks that may be more than kMostSheets.
+std::size_t usual_sheets(const DesignShape& shape);
 
 // The same shape and seed give the same design.
 //
@@ -110,6 +115,9 @@ std::vector<SideBalance> count_sides(const Design& design, std::optional<std::si
 
 // For each page: how often a condition stands at a place over all sheets, the most less the fewest times.
 std::vector<std::size_t> places_apart(const Design& design);
+
+// The sheets that so many participants see who take them in turn.
+Design taken_in_turn(const Design& design, std::size_t participants);
 
 // The most of places_apart() that rotating leaves. Sheets take the rows of Williams' design in turn: each condition
 // has each place once in as many rows as there are places; with an odd number of places, twice in twice as many rows.

@@ -629,6 +629,36 @@ TEST_F(CheckStudy, JudgesPlacesOfParallelPages) {
     EXPECT_THAT(details_, HasSubstr(": its conditions stand at its places 2 apart, at most 1 is balanced\n"));
 }
 
+// Three conditions at three places take six orders. Of one order each participant adds to what the last one left.
+TEST_F(CheckStudy, SeesOrdersThatFavourConditionsTheMoreParticipantsTakeThem) {
+    Json plan = {
+        {"layout", "parallel"},
+        {"conditions", {"ours", "baseline", {{"name", "frozen"}, {"from", "ours"}, {"by", "frozen"}}}}};
+    build_with(plan);
+    EXPECT_EQ(read_json(study_ / "public/pages.json")["sheets"].size(), 6u);
+    EXPECT_THAT(failing(), IsEmpty()) << details_;
+    EXPECT_THAT(detail_of("sides are balanced"), HasSubstr("at most 0 apart over all orders"));
+    plan["orders"] = 2;
+    build_with(plan);
+    EXPECT_THAT(failing(), ElementsAre("sides are balanced"));
+    EXPECT_EQ(
+        details_,
+        "2 orders leave the conditions of a page 2 apart at its places each time that all are taken, at most 0 is "
+        "balanced; build the study with \"orders\": 6, or without \"orders\"\n");
+    plan["participants"] = 2;
+    build_with(plan);
+    EXPECT_THAT(failing(), IsEmpty()) << details_;
+    // A study of an earlier version, whose plan does not say how many orders there are.
+    plan["participants"] = 40;
+    build_with(plan);
+    change("private/plan.json", [](Json& used) { used.erase("orders"); });
+    EXPECT_THAT(failing_when_resealed(), ElementsAre("sides are balanced"));
+    EXPECT_EQ(
+        details_,
+        "2 orders leave the conditions of a page 40 apart at its places after 40 participants, at most 2 is "
+        "balanced; build the study again, as this version of the program makes 6 orders\n");
+}
+
 TEST_F(CheckStudy, SaysThatSidesInOneVideoStayAsTheyAre) {
     build_with({{"presentation", "one video"}});
     EXPECT_THAT(detail_of("sides are balanced"),

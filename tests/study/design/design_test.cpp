@@ -110,6 +110,44 @@ TEST(DrawDesign, PutsEachConditionAtEachPlaceOfAPageEquallyOftenWherePlacesRotat
     }
 }
 
+// Times that each condition stood at each place, over all pages and so many participants who take the sheets in turn.
+std::vector<std::size_t> times_at_places(const Design& design, std::size_t participants) {
+    const std::size_t places = design.pages.front().places.size();
+    std::vector<std::size_t> counts(places * places);
+    for (const Sheet& sheet : taken_in_turn(design, participants).sheets) {
+        for (const Showing& shown : sheet.pages) {
+            for (std::size_t at = 0; at < places; ++at)
+                ++counts[design.pages[shown.page].places[shown.order[at]] * places + at];
+        }
+    }
+    return counts;
+}
+
+// Everybody sees all pages, and as many orders as pages need would leave conditions at some places more often for ever:
+// of four pages with three places 4 orders, where it takes 6 to lead three conditions through their places.
+TEST(DrawDesign, PutsEachConditionAtEachPlaceEquallyOftenHoweverManyTakeTheOrders) {
+    struct Case {
+        std::size_t conditions, clips, blocks, sheets;
+    };
+    for (const Case& one : {Case{2, 3, 1, 6}, Case{3, 4, 1, 12}, Case{8, 3, 1, 24}, Case{7, 12, 1, 56},
+                            Case{6, 80, 1, 60}, Case{3, 5, 2, 12}, Case{7, 10, 5, 70}}) {
+        std::vector<std::size_t> all(one.conditions);
+        std::iota(all.begin(), all.end(), 0u);
+        DesignShape shape{.clips = one.clips, .groups = {all}, .sides = SideRule::rotate};
+        if (one.blocks > 1) {
+            for (std::size_t i = 0; i < one.clips; ++i) shape.block_of_clip.push_back(i % one.blocks);
+        }
+        EXPECT_EQ(usual_sheets(shape), one.sheets) << one.conditions << " of " << one.clips;
+        const Design design = draw_design(shape, 3);
+        EXPECT_EQ(design.sheets.size(), one.sheets);
+        for (const std::size_t apart : places_apart(design)) EXPECT_EQ(apart, 0u);
+        for (const std::size_t apart : places_apart(taken_in_turn(design, 401)))
+            EXPECT_LE(apart, place_limit(one.conditions));
+        const std::vector<std::size_t> times = times_at_places(design, 10 * one.sheets);
+        EXPECT_EQ(std::set<std::size_t>(times.begin(), times.end()).size(), 1u) << one.conditions;
+    }
+}
+
 TEST(DrawDesign, KeepsTheReferenceInTheMiddle) {
     const Design design = draw_design({.clips = 6, .groups = {{0, 2, 1}}, .sides = SideRule::mirror}, 4);
     for (const Sheet& sheet : design.sheets) {
