@@ -211,7 +211,8 @@ DesignShape shape_of(const Plan& plan, std::uint64_t seed) {
                       .sheets = who.orders};
     // Where nobody sees all pages it takes a sheet for each participant to show every page equally often.
     const bool some = who.each_clip_once || who.pages_each;
-    if (!shape.sheets && some) shape.sheets = who.wanted.value_or(full_sheets(shape));
+    if (!shape.sheets)
+        shape.sheets = some ? who.wanted.value_or(full_sheets(shape)) : usual_sheets(shape, who.wanted);
     return shape;
 }
 

@@ -183,9 +183,10 @@ std::string fault_of_orders_taken_again(const StudyRecord& study, const Design& 
         counted(orders, "order"), most,
         participants > 0 ? format(" after {} participants", participants) : " each time that all are taken",
         limit,
-        study.plan.contains("orders")
-            ? format("with \"orders\": {}, or without \"orders\"", usual_sheets(shape))
-            : format("again, as this version of the program makes {} orders", usual_sheets(shape)));
+        study.plan.contains("orders") ? format("with \"orders\": {}, or without \"orders\"",
+                                               usual_sheets(shape, study.key.participants))
+                                      : format("again, as this version of the program makes {} orders",
+                                               usual_sheets(shape, study.key.participants)));
 }
 
 // What is wrong with the places of pages where they rotate, or "".

@@ -107,6 +107,14 @@ std::size_t sheets_of_whole_block(const DesignShape& shape, std::size_t pages) {
     return std::lcm(rows, count_rows(shape.groups.front().size()));
 }
 
+// Of Williams' design of the longest sheets.
+std::size_t most_rows(const DesignShape& shape) {
+    std::size_t most = 1;
+    for (std::size_t block = 0; block < count_blocks(shape); ++block)
+        most = std::max(most, count_rows(count_shown(shape, block)));
+    return most;
+}
+
 std::size_t ways_of(const DesignShape& shape) {
     return shape.sides == SideRule::mirror ? 2 : 1;
 }
@@ -284,11 +292,18 @@ std::size_t full_sheets(const DesignShape& shape) {
     return most * ways_of(shape) * count_blocks(shape);
 }
 
-std::size_t usual_sheets(const DesignShape& shape) {
+std::size_t usual_sheets(const DesignShape& shape, std::optional<std::size_t> participants) {
     const std::size_t full = full_sheets(shape);
-    if (full <= kMostSheets || shape.sides != SideRule::rotate) return std::min(full, kMostSheets);
-    const std::size_t round = count_rows(shape.groups.front().size()) * count_blocks(shape);
-    return std::max(round, kMostSheets / round * round);
+    std::size_t most = std::min(full, kMostSheets);
+    if (full > kMostSheets && shape.sides == SideRule::rotate) {
+        const std::size_t round = count_rows(shape.groups.front().size()) * count_blocks(shape);
+        most = std::max(round, kMostSheets / round * round);
+    }
+    if (!participants) return most;
+    // Sheets of fewer than all rows have rows that are far apart; the first of all sheets have rows side by side.
+    const std::size_t set = ways_of(shape) * count_blocks(shape);
+    const std::size_t taken = (*participants + set - 1) / set * set;
+    return taken < set * most_rows(shape) ? std::min(taken, most) : most;
 }
 
 Design draw_design(const DesignShape& shape, std::uint64_t seed) {
@@ -301,7 +316,7 @@ Design draw_design(const DesignShape& shape, std::uint64_t seed) {
         const std::vector<DesignPage> pages = draw_sequence(shape, block, seed);
         design.pages.insert(design.pages.end(), pages.begin(), pages.end());
     }
-    const std::size_t wanted = shape.sheets.value_or(usual_sheets(shape));
+    const std::size_t wanted = shape.sheets.value_or(usual_sheets(shape, std::nullopt));
     for (std::size_t i = 0; i < wanted; ++i) {
         const std::size_t block = i % blocks;
         const std::size_t of_block = (wanted - block + blocks - 1) / blocks;

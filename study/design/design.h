@@ -79,8 +79,10 @@ std::size_t count_shown(const DesignShape& shape, std::size_t block);
 std::size_t full_sheets(const DesignShape& shape);
 
 // The same, but at most kMostSheets. Where places rotate, as many as give each condition of a page each place equally
-// often, in every block; with many blocks that may be more than kMostSheets.
-std::size_t usual_sheets(const DesignShape& shape);
+// often, in every block; with many blocks that may be more than kMostSheets. Of fewer `participants` than rows of a
+// design of all pages, a sheet for each of them, rounded up to whole blocks and both ways round, so that the rows that
+// they see are as far apart as can be.
+std::size_t usual_sheets(const DesignShape& shape, std::optional<std::size_t> participants);
 
 // The same shape and seed give the same design.
 //

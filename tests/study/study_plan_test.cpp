@@ -355,6 +355,26 @@ TEST_F(StudyPlan, RefusesASampleThatWouldNeverShowSomePages) {
         EXPECT_THAT(refusal_of([&] { compose_for(fewer); }), ::testing::HasSubstr("would never be shown"));
 }
 
+// Ten participants of 24 pages: those of the first ten rows of 24 would see some pages at 4.5 on average, others at 18.5.
+TEST_F(StudyPlan, LetsNoPageComeEarlyForAllOfFewParticipants) {
+    Json json = sample_plan();
+    json["layout"] = "single";
+    json["participants"] = 10;
+    for (std::size_t i = 3; i <= 12; ++i) {
+        json["clips"].push_back(json["clips"][0]);
+        json["clips"].back()["id"] = format("c{}", i);
+    }
+    const Composition all = compose(read(json), 3);
+    ASSERT_THAT(all.sheets, SizeIs(10));
+    std::vector<std::size_t> sum(24);
+    for (const Sheet& sheet : all.sheets) {
+        for (std::size_t at = 0; at < 24; ++at) sum[sheet.pages[at].page] += at;
+    }
+    EXPECT_THAT(sum, ::testing::Each(115)) << "11.5 each";
+    json["orders"] = 24;
+    EXPECT_THAT(compose(read(json), 3).sheets, SizeIs(24)) << "as the plan says";
+}
+
 TEST_F(StudyPlan, ReadsCutsOfClips) {
     Json json = sample_plan();
     json["clips"][0]["cut"] = {0.5, 2};

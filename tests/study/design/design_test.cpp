@@ -137,7 +137,7 @@ TEST(DrawDesign, PutsEachConditionAtEachPlaceEquallyOftenHoweverManyTakeTheOrder
         if (one.blocks > 1) {
             for (std::size_t i = 0; i < one.clips; ++i) shape.block_of_clip.push_back(i % one.blocks);
         }
-        EXPECT_EQ(usual_sheets(shape), one.sheets) << one.conditions << " of " << one.clips;
+        EXPECT_EQ(usual_sheets(shape, std::nullopt), one.sheets) << one.conditions << " of " << one.clips;
         const Design design = draw_design(shape, 3);
         EXPECT_EQ(design.sheets.size(), one.sheets);
         for (const std::size_t apart : places_apart(design)) EXPECT_EQ(apart, 0u);
@@ -285,6 +285,23 @@ TEST(DrawDesign, KeepsPagesNearTheMiddleOnAverageWhenFewSheetsAreTaken) {
         }
         for (const double total : sum) EXPECT_NEAR(total / static_cast<double>(sheets), 14.5, 1.01) << sheets;
     }
+}
+
+TEST(UsualSheets, AreAsManyAsParticipantsWhereThoseAreFewerThanRows) {
+    DesignShape shape{.clips = 12, .groups = {{0}, {1}}};
+    EXPECT_EQ(usual_sheets(shape, std::nullopt), 24u);
+    EXPECT_EQ(usual_sheets(shape, 10), 10u);
+    EXPECT_EQ(usual_sheets(shape, 24), 24u);
+    EXPECT_EQ(usual_sheets(shape, 100), 24u);
+    shape.block_of_clip = {0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1};
+    EXPECT_EQ(usual_sheets(shape, 7), 8u) << "as many of either block";
+    const DesignShape pairs{.clips = 12, .groups = all_pairs(2), .sides = SideRule::mirror};
+    EXPECT_EQ(usual_sheets(pairs, 9), 10u) << "both ways round";
+    EXPECT_EQ(usual_sheets(pairs, 23), 24u);
+    EXPECT_EQ(usual_sheets({.clips = 60, .groups = all_pairs(2), .sides = SideRule::mirror}, 100), 64u);
+    // Four rows of pages, which 7 participants fill; the places take 12.
+    EXPECT_EQ(usual_sheets({.clips = 4, .groups = {{0, 1, 2}}, .sides = SideRule::rotate}, 7), 12u);
+    EXPECT_EQ(usual_sheets({.clips = 4, .groups = {{0, 1, 2}}, .sides = SideRule::rotate}, 3), 3u);
 }
 
 // Of two conditions and five clips, each once: two sets of pages, each at every position.
