@@ -155,13 +155,16 @@ Table contrasts_table(const TableSource& of) {
                     {"p", "p", Show::p},
                     {"p_holm", "p (Holm)", Show::p}}};
     for (const VoteResult& result : of.results.votes) {
-        const auto label = [&](const VotePair& pair) {
-            return format("{} over {}", of.condition(pair.first), of.condition(pair.second));
+        const auto label = [&](std::size_t first, std::size_t second) {
+            return format("{} over {}", of.condition(first), of.condition(second));
         };
         for (const VoteContrast& contrast : result.contrasts) {
             const VotePair &a = result.pairs[contrast.first], &b = result.pairs[contrast.second];
-            table.rows.push_back({of.question(result.question), label(a), a.wins, a.wins + a.losses, label(b),
-                                  b.wins, b.wins + b.losses, contrast.p, contrast.holm_p});
+            const bool turned = contrast.turned;
+            table.rows.push_back(
+                {of.question(result.question), label(a.first, a.second), a.wins, a.wins + a.losses,
+                 turned ? label(b.second, b.first) : label(b.first, b.second), turned ? b.losses : b.wins,
+                 b.wins + b.losses, contrast.p, contrast.holm_p});
         }
     }
     return table;

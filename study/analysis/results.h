@@ -99,7 +99,8 @@ struct VotePair {
 struct VoteContrast {
     std::size_t first = 0;  // VotePair
     std::size_t second = 0;
-    double p = 1;  // Barnard
+    bool turned = false;  // the second pair counts the other way round: its losses are wins
+    double p = 1;         // Barnard
     double holm_p = 1;
 };
 

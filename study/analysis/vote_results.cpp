@@ -114,18 +114,22 @@ void adjust(std::vector<Result>& results, const Part& test_of) {
     for (std::size_t i = 0; i < results.size(); ++i) test_of(results[i]).holm_p = adjusted[i];
 }
 
-// Conditions against what was made of them are compared with each other; so are pairs that share a condition.
+// Conditions against what was made of them are compared with each other; so are pairs that share a condition, which
+// stands first in both or second in both: "x over base" and "base over y" are x and y over base.
 std::vector<VoteContrast> contrast(const std::vector<VotePair>& pairs) {
     std::vector<VoteContrast> contrasts;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         for (std::size_t j = i + 1; j < pairs.size(); ++j) {
             const VotePair &a = pairs[i], &b = pairs[j];
-            const bool against_one =
-                !a.made_of_it && !b.made_of_it && (a.first == b.first || a.second == b.second);
-            if (!(a.made_of_it && b.made_of_it) && !against_one) continue;
+            const bool of_conditions = !a.made_of_it && !b.made_of_it;
+            const bool turned = of_conditions && (a.first == b.second || a.second == b.first);
+            const bool against_one = of_conditions && (a.first == b.first || a.second == b.second);
+            if (!(a.made_of_it && b.made_of_it) && !against_one && !turned) continue;
             contrasts.push_back({.first = i,
                                  .second = j,
-                                 .p = barnard_exact(a.wins, a.wins + a.losses, b.wins, b.wins + b.losses)});
+                                 .turned = turned,
+                                 .p = barnard_exact(a.wins, a.wins + a.losses, turned ? b.losses : b.wins,
+                                                    b.wins + b.losses)});
         }
     }
     adjust(contrasts, [](VoteContrast& contrast) -> VoteContrast& { return contrast; });

@@ -103,12 +103,8 @@ TEST(ComputeResults, ComparesARankedOptionWithItselfAlone) {
 }
 
 Preference vote(std::size_t participant, int strength, std::size_t left) {
-    return {.participant = participant,
-            .unit = 0,
-            .first = 0,
-            .second = 1,
-            .left = left,
-            .strength = strength};
+    return {
+        .participant = participant, .unit = 0, .first = 0, .second = 1, .left = left, .strength = strength};
 }
 
 TEST(ComputeResults, CountsWinsSidesAndReasons) {
@@ -149,6 +145,40 @@ TEST(ComputeResults, CountsWinsSidesAndReasons) {
     EXPECT_EQ(results.votes[0].reasons[1].chosen, 1u);
     EXPECT_EQ(results.votes[0].reasons[0].of, 2u);
     ASSERT_EQ(results.votes[0].elo.size(), 1u);
+}
+
+// Of "a over b", "a over c" and "b over c" every two share a condition; b is the second of one and the first of another.
+TEST(ComputeResults, ContrastsPairsThatShareAConditionWhereverItStands) {
+    Dataset data = two_raters();
+    data.conditions.push_back({"third"});
+    data.questions = {{.id = "realism", .kind = QuestionKind::preference, .answers = {"a", "b"}}};
+    const std::pair<std::size_t, std::size_t> pairs[] = {{0, 1}, {0, 2}, {1, 2}};
+    for (const auto& [first, second] : pairs) {
+        for (std::size_t p = 0; p < 3; ++p) {
+            data.preferences.push_back(vote(p, first == 1 ? -1 : 1, 0));
+            data.preferences.back().first = first;
+            data.preferences.back().second = second;
+        }
+    }
+    const Results results = results_of(data);
+    const std::vector<VoteContrast>& contrasts = results.votes.at(0).contrasts;
+    ASSERT_EQ(contrasts.size(), 3u);
+    // Ours wins 3 of 3 over the baseline, and so does the third: nothing differs.
+    EXPECT_EQ(contrasts[1].first, 0u);
+    EXPECT_EQ(contrasts[1].second, 2u);
+    EXPECT_TRUE(contrasts[1].turned);
+    EXPECT_DOUBLE_EQ(contrasts[1].p, 1);
+    // 3 of 3 over the third, and 0 of 3: 2 of 64 (proportions_test.cpp), and Holm takes the least of three p thrice.
+    EXPECT_NEAR(contrasts[2].p, 2.0 / 64, 1e-9);
+    EXPECT_NEAR(contrasts[2].holm_p, 6.0 / 64, 1e-9);
+    for (const Table& table : tables_of(data, results)) {
+        if (table.id != "barnard") continue;
+        const Json row = to_json(table)[1];
+        EXPECT_EQ(row["first"], "ours over baseline");
+        EXPECT_EQ(row["second"], "third over baseline");
+        EXPECT_EQ(row["second_wins"], 3);
+        EXPECT_EQ(row["second_decided"], 3);
+    }
 }
 
 // Two conditions that are equal to raters as a whole: each rater leans to one of them by a logit or so, and
@@ -411,8 +441,7 @@ TEST(PublishedResults, OfForcedChoicesAreShares) {
     data.preset = "thesis-3d-style-transfer-unseen";
     data.questions = {{.id = "dynamics", .kind = QuestionKind::preference, .answers = {"A", "B"}}};
     for (std::size_t p = 0; p < 3; ++p)
-        data.preferences.push_back(
-            {.participant = p, .first = 0, .second = 1, .strength = p < 2 ? 1 : -1});
+        data.preferences.push_back({.participant = p, .first = 0, .second = 1, .strength = p < 2 ? 1 : -1});
     for (const Table& table : tables_of(data, results_of(data))) {
         if (table.id != "published") continue;
         ASSERT_EQ(table.rows.size(), 1u);
