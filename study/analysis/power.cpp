@@ -29,9 +29,12 @@ std::vector<double> draw_clips(const PowerDesign& design, Random& random) {
     return clips;
 }
 
-// How many of a participant's answers one of `shares` gets. The remainder goes to each in turn.
-std::size_t share_of(std::size_t answers, std::size_t shares, std::size_t participant) {
-    return answers / shares + (participant % shares < answers % shares ? 1 : 0);
+// How many of a participant's answers one of the shares gets. The remainder goes to each in turn.
+std::size_t share_of(const PowerDesign& design, std::size_t share, std::size_t participant) {
+    const std::size_t sheets = design.answers_each.size();
+    const std::size_t answers = design.answers_each[participant % sheets],
+                      turn = participant / sheets + share;
+    return answers / design.shares + (turn % design.shares < answers % design.shares ? 1 : 0);
 }
 
 // The scores of all participants for the first condition, and for the second.
@@ -46,7 +49,7 @@ Drawn draw_preferences(const PowerDesign& design, std::size_t participants, Rand
     Drawn drawn;
     for (std::size_t p = 0; p < participants; ++p) {
         const double leaning = design.participant_sd * random.normal();
-        const std::size_t count = share_of(design.answers_each, design.shares, p);
+        const std::size_t count = share_of(design, 0, p);
         double sum = 0;
         for (std::size_t i = 0; i < count; ++i)
             sum += steps_felt(gap + leaning + clips[(p + i) % clips.size()] + logistic_noise(random),
@@ -72,8 +75,7 @@ Drawn draw_scores(const PowerDesign& design, std::size_t participants, Random& r
     for (std::size_t p = 0; p < participants; ++p) {
         // Half of the difference at either end, and of what the participant adds to it.
         const double half = (design.effect + design.participant_sd * random.normal()) / 2;
-        const std::size_t first = share_of(design.answers_each, design.shares, p),
-                          second = share_of(design.answers_each, design.shares, p + 1);
+        const std::size_t first = share_of(design, 0, p), second = share_of(design, 1, p);
         if (first == 0 || second == 0) continue;
         drawn.first.push_back(mean_score(first, p, half));
         drawn.second.push_back(mean_score(second, p, -half));
@@ -101,6 +103,12 @@ PowerStep simulate(const PowerDesign& design, std::size_t participants) {
     return step;
 }
 
+// "8", or "2 to 8" where sheets differ.
+std::string answers_text(const PowerDesign& design) {
+    const auto [least, most] = std::ranges::minmax(design.answers_each);
+    return least == most ? format("{}", least) : format("{} to {}", least, most);
+}
+
 // The next number of participants to try: a third more.
 std::size_t more_than(std::size_t participants) {
     return std::max(participants + 1, participants * 4 / 3);
@@ -110,11 +118,11 @@ void refuse_nothing_to_find(const PowerDesign& design) {
     const bool prefers = design.kind == AnswerKind::preferences;
     if (design.effect == 0)
         throw Error("--effect: is 0, which nobody can find; give the smallest that matters");
-    if (design.answers_each < design.shares) {
+    const std::size_t most = *std::ranges::max_element(design.answers_each);
+    if (most < design.shares) {
         throw Error(
             format("--power: a participant gives {} answers, and there are {} {}; let each give at least {}",
-                   design.answers_each, design.shares, prefers ? "pairs of conditions" : "conditions",
-                   design.shares));
+                   most, design.shares, prefers ? "pairs of conditions" : "conditions", design.shares));
     }
 }
 
@@ -159,7 +167,8 @@ Json to_json(const PowerDesign& design, const PowerResult& result) {
     Json json = {{"answers", prefers ? "preferences" : "scores"},
                  {prefers ? "pairs" : "conditions", design.shares},
                  {"clips", design.clips},
-                 {"answers_each", design.answers_each},
+                 {"answers_each", design.answers_each.size() == 1 ? Json(design.answers_each.front())
+                                                                  : Json(design.answers_each)},
                  {"effect", design.effect},
                  {"participant_sd", design.participant_sd},
                  {"clip_sd", design.clip_sd},
@@ -194,8 +203,8 @@ std::string to_text(const PowerDesign& design, const PowerResult& result) {
     const std::string most = result.at_most ? std::to_string(*result.at_most) : "more";
     const std::string answers =
         prefers ? format("{} comparisons of each participant with {} answers to choose from",
-                         design.answers_each, design.choices)
-                : format("{} scores of each participant", design.answers_each);
+                         answers_text(design), design.choices)
+                : format("{} scores of each participant", answers_text(design));
     return text +
            format("\n{} needs {} participants for {:g} % power ({} to {}; {} simulated studies each, {})\n",
                   effect, *result.needed, 100 * design.wanted, result.at_least, most, design.runs, answers);

@@ -19,10 +19,12 @@ struct PowerDesign {
     std::size_t shares = 1;  // pairs of conditions that are compared, or conditions that are rated; the
                              // answers of a participant are divided among them
     std::size_t clips = 10;
-    std::size_t answers_each = 25;  // of a participant: comparisons of two, or scores of one
-    std::size_t choices = 5;        // preferences: how many answers there are to choose from, such as 3 or 7
-    double effect = 100;  // preferences: Elo between two conditions; scores: their difference in standard
-                          // deviations of an answer
+    // Of participants in turn, as the sheets are given to them: comparisons of two, or scores of one. All have the same
+    // where there is one number.
+    std::vector<std::size_t> answers_each = {25};
+    std::size_t choices = 5;  // preferences: how many answers there are to choose from, such as 3 or 7
+    double effect = 100;      // preferences: Elo between two conditions; scores: their difference in standard
+                              // deviations of an answer
     double participant_sd = 0.3;  // of what one participant thinks of the difference: natural log odds, or
                                   // standard deviations of an answer
     double clip_sd = 0.3;         // the same of one clip
@@ -52,8 +54,8 @@ struct PowerResult {
 // Scores: normal, of standard deviation 1 for all participants and clips together. A participant's score is the
 // mean over the clips that they rated of either condition. The test is the t of the participants' (differences of)
 // scores, in which participants are drawn and clips are not: what clips add sums to 0. The pages of a participant
-// are shared out evenly among all pairs, or conditions. Throws Error if a participant has no answer on the pair,
-// or the effect is 0.
+// are shared out evenly among all pairs, or conditions; who has none of the pair is left out. Throws Error if everybody
+// has fewer answers than there are pairs, or conditions, or the effect is 0.
 PowerResult plan_power(const PowerDesign& design);
 
 Json to_json(const PowerDesign& design, const PowerResult& result);

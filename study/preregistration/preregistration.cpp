@@ -416,13 +416,27 @@ std::size_t fewest_choices(const Plan& plan) {
     return fewest;
 }
 
+// How many trials the sheets have, in turn; as short as it can be.
+std::vector<std::size_t> trials_in_turn(const Design& design) {
+    std::vector<std::size_t> trials;
+    for (const Sheet& sheet : design.sheets) trials.push_back(sheet.pages.size());
+    const auto repeats_after = [&](std::size_t count) {
+        return trials.size() % count == 0 &&
+               std::equal(trials.begin() + static_cast<std::ptrdiff_t>(count), trials.end(), trials.begin());
+    };
+    std::size_t count = 1;
+    while (!repeats_after(count)) ++count;
+    trials.resize(count);
+    return trials;
+}
+
 }  // namespace
 
 analysis::PowerDesign power_design(const Plan& plan, const Composition& all, std::optional<double> effect,
                                    std::uint64_t seed) {
     const std::optional<double> wanted = effect ? effect : plan.smallest_effect;
-    const std::size_t pages = all.design.sheets.front().pages.size();
-    analysis::PowerDesign design{.clips = all.judged.size(), .answers_each = pages, .seed = seed};
+    analysis::PowerDesign design{
+        .clips = all.judged.size(), .answers_each = trials_in_turn(all.design), .seed = seed};
     if (asks(plan, QuestionKind::preference)) {
         design.shares = plan.groups.size();
         design.effect = wanted.value_or(kUsualElo);
@@ -431,8 +445,9 @@ analysis::PowerDesign power_design(const Plan& plan, const Composition& all, std
         design.kind = analysis::AnswerKind::scores;
         design.shares = plan.conditions.size() - (plan.reference ? 1 : 0);
         design.effect = wanted.value_or(kUsualDifference);
-        if (asks(plan, [](const Question& question) { return question.each; }))
-            design.answers_each *= plan.groups.front().size();
+        if (asks(plan, [](const Question& question) { return question.each; })) {
+            for (std::size_t& answers : design.answers_each) answers *= plan.groups.front().size();
+        }
     }
     return design;
 }

@@ -20,7 +20,7 @@ TEST(PlanPower, FindsTheTextbookNumberForAPairedT) {
     const PowerDesign design{.kind = AnswerKind::scores,
                              .shares = 2,
                              .clips = 1,
-                             .answers_each = 2,
+                             .answers_each = {2},
                              .effect = 1,
                              .participant_sd = 0,
                              .clip_sd = 0};
@@ -50,7 +50,7 @@ TEST(PlanPower, CountsTheStepsOfAsManyAnswersAsThereAre) {
         }
         const double textbook = 7.85 * (square - mean * mean) / (mean * mean) + 2;
         const PowerDesign design{.clips = 1,
-                                 .answers_each = 1,
+                                 .answers_each = {1},
                                  .choices = choices,
                                  .effect = 400 * gap / std::log(10.0),
                                  .participant_sd = 0,
@@ -63,7 +63,7 @@ TEST(PlanPower, CountsTheStepsOfAsManyAnswersAsThereAre) {
 }
 
 TEST(PlanPower, SmallerEffectsAndMoreConditionsNeedMore) {
-    const PowerDesign design{.answers_each = 12, .effect = 100, .runs = 300};
+    const PowerDesign design{.answers_each = {12}, .effect = 100, .runs = 300};
     PowerDesign weaker = design, more = design, doubtful = design;
     weaker.effect = 50;
     more.shares = 6;
@@ -72,6 +72,24 @@ TEST(PlanPower, SmallerEffectsAndMoreConditionsNeedMore) {
     EXPECT_GT(*plan_power(weaker).needed, 2 * needed);
     EXPECT_GT(*plan_power(more).needed, 3 * needed);
     EXPECT_GT(*plan_power(doubtful).needed, needed);
+}
+
+// In blocks of 8 and of 2 pages, whichever comes first, it takes more than if all had 8 and fewer than if all had 2.
+TEST(PlanPower, TakesTheAnswersOfParticipantsInTurn) {
+    const auto needed = [](std::vector<std::size_t> answers) {
+        return static_cast<double>(
+            *plan_power({.shares = 2, .clips = 5, .answers_each = answers, .effect = 100}).needed);
+    };
+    const double mixed = needed({8, 2});
+    EXPECT_NEAR(needed({2, 8}) / mixed, 1, 0.1);
+    EXPECT_GT(mixed, 1.2 * needed({8}));
+    EXPECT_LT(1.2 * mixed, needed({2}));
+    // Who has no answer on the pair is left out.
+    EXPECT_NEAR(needed({8, 0}) / needed({8}), 2, 0.3);
+    const PowerDesign design{.answers_each = {8, 2}, .runs = 50};
+    const PowerResult result = plan_power(design);
+    EXPECT_THAT(to_text(design, result), HasSubstr("2 to 8 comparisons of each participant"));
+    EXPECT_EQ(to_json(design, result)["answers_each"], Json({8, 2}));
 }
 
 TEST(PlanPower, TheDirectionOfTheEffectDoesNotMatterAndTheSeedDecides) {
@@ -84,7 +102,7 @@ TEST(PlanPower, TheDirectionOfTheEffectDoesNotMatterAndTheSeedDecides) {
 }
 
 TEST(PlanPower, SaysWhereNoNumberIsEnough) {
-    const PowerDesign design{.answers_each = 1, .effect = 1, .runs = 20};
+    const PowerDesign design{.answers_each = {1}, .effect = 1, .runs = 20};
     const PowerResult result = plan_power(design);
     EXPECT_FALSE(result.needed);
     EXPECT_THAT(to_text(design, result), HasSubstr("needs more than 2000 participants"));
@@ -94,7 +112,7 @@ TEST(PlanPower, SaysWhereNoNumberIsEnough) {
 TEST(PlanPower, RefusesWhatCannotBeFound) {
     EXPECT_EQ(refusal_of([] { plan_power({.effect = 0}); }),
               "--effect: is 0, which nobody can find; give the smallest that matters");
-    EXPECT_EQ(refusal_of([] { plan_power({.shares = 6, .answers_each = 5}); }),
+    EXPECT_EQ(refusal_of([] { plan_power({.shares = 6, .answers_each = {5}}); }),
               "--power: a participant gives 5 answers, and there are 6 pairs of conditions; let each give at "
               "least 6");
 }

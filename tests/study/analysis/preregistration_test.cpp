@@ -120,6 +120,26 @@ TEST_F(Preregistered, FindsThePowerOfAsManyAnswersAsThePlanHas) {
     EXPECT_EQ(needed({7, 3}), of_three);
 }
 
+// Four clips in one block and one in the other: which of them is called the first must not matter.
+TEST_F(Preregistered, FindsThePowerOfUnequalBlocksWhicheverComesFirst) {
+    Json plan = sample_plan();
+    plan["blocks"] = 2;
+    for (const char* id : {"c3", "c4", "c5"}) {
+        plan["clips"].push_back(plan["clips"][0]);
+        plan["clips"].back()["id"] = id;
+    }
+    const auto needed = [&](int block_of_four) {
+        for (std::size_t i = 0; i < 5; ++i)
+            plan["clips"][i]["block"] = i < 4 ? block_of_four : 1 - block_of_four;
+        const Outcome outcome = preregister(plan, {"--power", "--effect", "100"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_THAT(outcome.out, HasSubstr("1 to 4 comparisons of each participant"));
+        EXPECT_EQ(data()["power"]["answers_each"], block_of_four == 0 ? Json({4, 1}) : Json({1, 4}));
+        return data()["power"]["participants_needed"].get<double>();
+    };
+    EXPECT_NEAR(needed(0) / needed(1), 1, 0.15);
+}
+
 TEST_F(Preregistered, SaysWhatThePlanSays) {
     Json plan = sample_plan();
     plan["participants"] = 12;
