@@ -265,6 +265,7 @@ std::string to_text(const Analysis& analysis) {
     for (const Table& table : all_tables(analysis, analysis.strict)) {
         static const std::set<std::string> kMain = {"scores",
                                                     "cronbach",
+                                                    "middle_t",
                                                     "friedman",
                                                     "repeated_anova",
                                                     "anova",

@@ -64,8 +64,12 @@ bool asks_for_reasons(const Question& question, const Json& value) {
     return question.reasons && value != question.reasons->unless;
 }
 
-std::string pair_label(const Dataset& data, std::size_t first, std::size_t second) {
-    return data.conditions[first].name + " over " + data.conditions[second].name;
+// The cell of scores that go from the second condition to the first.
+std::size_t sided_cell(Dataset& data, std::size_t first, std::size_t second) {
+    const std::string label = data.conditions[first].name + " over " + data.conditions[second].name;
+    const std::size_t cell = number_of(data.cells, label);
+    data.sided_cells.insert(cell);
+    return cell;
 }
 
 void add_preference(Dataset& data, const Joining& join, const Asked& asked, const Json& value) {
@@ -90,7 +94,7 @@ void add_preference(Dataset& data, const Joining& join, const Asked& asked, cons
                           .reasons = chosen_reasons(reasons, asked.question.id),
                           .other_reason = other_reason(reasons, asked.question.id)};
     if (join.key.layout == Layout::triplet) {
-        const std::size_t cell = number_of(data.cells, pair_label(data, preference.first, preference.second));
+        const std::size_t cell = sided_cell(data, preference.first, preference.second);
         data.scores.push_back(
             {.participant = join.participant,
              .question = asked.index,
@@ -113,7 +117,7 @@ void add_page_score(Dataset& data, const Joining& join, const Asked& asked, cons
         score.cell = compared.front();
     } else if (compared.size() == 2 && names_a_side(asked.question, join.key.layout)) {
         const auto [first, second] = std::minmax(compared[0], compared[1]);
-        score.cell = number_of(data.cells, pair_label(data, first, second));
+        score.cell = sided_cell(data, first, second);
         // The least means the left one (of a triplet: like A), so the score is reversed if that is the first.
         if (compared[0] == first) score.value = reversed_value(asked.question, score.value);
     } else {

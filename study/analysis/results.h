@@ -14,12 +14,23 @@
 
 namespace chironomia::study::analysis {
 
+// Whether the scores of a cell that goes from one condition to another differ from the middle of the scale. Absent tests
+// could not be made.
+struct MiddleTests {
+    double middle = 0;
+    std::optional<MeanTest> t;      // one sample; the difference is the mean less the middle
+    std::optional<RankTest> ranks;  // one sample
+    double t_holm_p = 1;            // among all such cells of the question
+    double ranks_holm_p = 1;
+};
+
 // The scores of one cell. A participant's score is the mean over what they rated.
 struct CellResult {
     std::size_t cell = 0;
-    Summary participants;            // of the participants' scores
-    Summary answers;                 // of all answers
-    std::optional<Density> density;  // of the participants' scores
+    Summary participants;               // of the participants' scores
+    Summary answers;                    // of all answers
+    std::optional<Density> density;     // of the participants' scores
+    std::optional<MiddleTests> middle;  // of the same, where the cell goes from one condition to another
 };
 
 // Two cells, or two questions of one cell. Absent tests could not be made.

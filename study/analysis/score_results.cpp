@@ -110,6 +110,26 @@ void adjust(std::vector<CellPair>& pairs, bool rated, std::optional<Test> CellPa
     }
 }
 
+MiddleTests compare_with(double middle, const std::vector<double>& scores) {
+    const std::vector<double> equal(scores.size(), middle);
+    return {.middle = middle, .t = paired_t(scores, equal), .ranks = wilcoxon_signed_rank(scores, equal)};
+}
+
+// Among all cells of the question that have such a test, or were to have one.
+template <typename Test>
+void adjust(std::vector<CellResult>& cells, std::optional<Test> MiddleTests::*test,
+            double MiddleTests::*holm_p) {
+    std::vector<MiddleTests*> tests;
+    std::vector<double> p;
+    for (CellResult& cell : cells) {
+        if (!cell.middle) continue;
+        tests.push_back(&*cell.middle);
+        p.push_back(tests.back()->*test ? (tests.back()->*test)->p : 1);
+    }
+    const std::vector<double> adjusted = adjust_holm(p);
+    for (std::size_t i = 0; i < tests.size(); ++i) tests[i]->*holm_p = adjusted[i];
+}
+
 // Over all cells, of the participants who rated each of them.
 WithinTests compare_all(const std::vector<Means>& cells) {
     std::map<std::size_t, std::vector<double>> scores_of;
@@ -155,7 +175,12 @@ ScoreResult compute_question(const Dataset& data, std::size_t question) {
                                 .participants = summarize(groups.back()),
                                 .answers = summarize(answers_of(data, question, cells[i])),
                                 .density = gaussian_density(groups.back(), result.range, kDensityPoints)});
+        if (data.sided_cells.contains(cells[i]))
+            result.cells.back().middle =
+                compare_with((result.range.low + result.range.high) / 2, groups.back());
     }
+    adjust(result.cells, &MiddleTests::t, &MiddleTests::t_holm_p);
+    adjust(result.cells, &MiddleTests::ranks, &MiddleTests::ranks_holm_p);
     for (std::size_t i = 0; i < cells.size(); ++i) {
         for (std::size_t j = i + 1; j < cells.size(); ++j) {
             if (option_of(data, cells[i]) != option_of(data, cells[j])) continue;

@@ -67,6 +67,63 @@ Cell number(const std::optional<Test>& test, double Test::*member) {
     return test ? std::optional((*test).*member) : std::nullopt;
 }
 
+Table middle_t_table(const TableSource& of) {
+    Table table{
+        .id = "middle_t",
+        .title = "t against the middle of the scale",
+        .note =
+            "One sample, of the scores of participants; the middle means that the two conditions are equal, and the "
+            "difference is the mean less the middle: above 0 the first is ahead. d is the difference in standard "
+            "deviations of the scores. Holm's p is adjusted for all such rows of the question. Takes participants as "
+            "independent and their mean as normal, as it is of many participants. Where all scores are the same there "
+            "is no t",
+        .columns = columns_of_t({{"question", "question"},
+                                 {"condition", "condition"},
+                                 {"n", "n", Show::whole},
+                                 {"middle", "middle", Show::two}})};
+    table.columns.push_back({"p_holm", "p (Holm)", Show::p});
+    for (const ScoreResult& result : of.results.scores) {
+        for (const CellResult& cell : result.cells) {
+            if (!cell.middle || !cell.middle->t) continue;
+            Row row = {of.question(result.question), of.cell(cell.cell), cell.middle->t->n_first,
+                       cell.middle->middle};
+            append(row, *cell.middle->t);
+            row.push_back(cell.middle->t_holm_p);
+            table.rows.push_back(std::move(row));
+        }
+    }
+    return table;
+}
+
+Table middle_wilcoxon_table(const TableSource& of) {
+    Table table{
+        .id = "middle_wilcoxon",
+        .title = "Wilcoxon's signed ranks against the middle of the scale",
+        .note =
+            "One sample, of the scores of participants; n differ from the middle by more than 1e-9. Holm's p is "
+            "adjusted for all such rows of the question. Takes participants as independent and their scores as "
+            "symmetric about the middle if the conditions are equal",
+        .columns = {{"question", "question"},
+                    {"condition", "condition"},
+                    {"n", "n", Show::whole},
+                    {"same", "same", Show::whole},
+                    {"middle", "middle", Show::two},
+                    {"statistic", "T", Show::two},
+                    {"method", "method"},
+                    {"p", "p", Show::p},
+                    {"p_holm", "p (Holm)", Show::p}}};
+    for (const ScoreResult& result : of.results.scores) {
+        for (const CellResult& cell : result.cells) {
+            if (!cell.middle || !cell.middle->ranks) continue;
+            const RankTest& ranks = *cell.middle->ranks;
+            table.rows.push_back({of.question(result.question), of.cell(cell.cell), ranks.n, ranks.same,
+                                  cell.middle->middle, ranks.statistic, ranks.exact ? "exact" : "normal",
+                                  ranks.p, cell.middle->ranks_holm_p});
+        }
+    }
+    return table;
+}
+
 Table paired_table(const TableSource& of) {
     Table table{
         .id = "paired_t",
@@ -289,9 +346,9 @@ Table factors_table(const TableSource& of) {
 }  // namespace
 
 std::vector<Table> score_tables(const TableSource& of) {
-    return {scores_table(of), cronbach_table(of), friedman_table(of), repeated_anova_table(of),
-            anova_table(of),  paired_table(of),   wilcoxon_table(of), welch_table(of),
-            lsd_table(of),    factors_table(of)};
+    return {scores_table(of),   cronbach_table(of),       middle_t_table(of), middle_wilcoxon_table(of),
+            friedman_table(of), repeated_anova_table(of), anova_table(of),    paired_table(of),
+            wilcoxon_table(of), welch_table(of),          lsd_table(of),      factors_table(of)};
 }
 
 }  // namespace chironomia::study::analysis

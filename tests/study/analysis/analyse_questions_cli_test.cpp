@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "core/files/files.h"
@@ -78,6 +79,41 @@ TEST(AnalyseQuestions, TurnsASidedSliderWithTheVideos) {
     EXPECT_THAT(outcome.out, Not(HasSubstr("sided")));
 }
 
+// Participants put ours 1, 1.5, 2 and 2.5 steps over the middle: a mean of 1.75, t = 1.75 / (sqrt(5 / 12) / 2), and of
+// sixteen signs of four ranks two are all alike.
+TEST(AnalyseQuestions, ComparesASidedSliderWithTheMiddleOfItsScale) {
+    const TemporaryFolder folder;
+    Json question = kFromLeftToRight;
+    question.update({{"sided", true}, {"least", 0}, {"most", 6}});
+    write_sample_study(sample_asking(question), folder / "study");
+    int answers = 0;
+    const Outcome outcome = analyse_with(folder, [&](Json& answer, bool is_ours_left) {
+        const int participant = answers / 6, odd = answers % 2;
+        const int steps = 1 + participant / 2 + (participant % 2 == 1 ? odd : 0);
+        answer["values"]["better"] = is_ours_left ? 3 - steps : 3 + steps;
+        ++answers;
+    });
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    ASSERT_EQ(answers, 24);
+    const Json strict = strict_of(folder);
+    ASSERT_EQ(strict["middle_t"].size(), 1u);
+    const Json t = strict["middle_t"][0], ranks = strict["middle_wilcoxon"].at(0);
+    EXPECT_EQ(t["condition"], "ours over baseline");
+    EXPECT_EQ(t["n"], 4);
+    EXPECT_EQ(t["middle"], 3);
+    EXPECT_NEAR(t["difference"].get<double>(), 1.75, 1e-12);
+    EXPECT_NEAR(t["t"].get<double>(), 1.75 / (std::sqrt(5.0 / 12) / 2), 1e-9);
+    EXPECT_EQ(t["df"], 3);
+    EXPECT_EQ(t["p_holm"], t["p"]);
+    EXPECT_EQ(ranks["statistic"], 0);
+    EXPECT_NEAR(ranks["p"].get<double>(), 2.0 / 16, 1e-12);
+    EXPECT_THAT(outcome.out, HasSubstr("t against the middle of the scale (strict rule)"));
+    const std::string report = read_text(folder / "out/report.html");
+    for (const char* title :
+         {"t against the middle of the scale", "Wilcoxon's signed ranks against the middle"})
+        EXPECT_THAT(report, HasSubstr(title));
+}
+
 // As studies of before were built: a number that means nothing, and a note.
 TEST(AnalyseQuestions, SaysThatAnswersAreNotTurned) {
     const TemporaryFolder folder;
@@ -124,6 +160,7 @@ TEST(AnalyseQuestions, TurnsARatingOfATripletUnlessItIsOfThePage) {
     const Outcome outcome = analyse_with(folder, be_sure);
     EXPECT_EQ(strict_of(folder)["scores"][0]["condition"], "ours + baseline");
     EXPECT_EQ(strict_of(folder)["scores"][0]["mean"], 4);
+    EXPECT_FALSE(strict_of(folder).contains("middle_t")) << "a page as a whole has no middle";
     EXPECT_THAT(outcome.out, Not(HasSubstr("sided")));
 }
 

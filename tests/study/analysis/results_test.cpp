@@ -78,6 +78,27 @@ TEST(ComputeResults, HolmCountsPairsWhoseTestCouldNotBeMade) {
     EXPECT_NEAR(score.pairs[0].paired_holm_p, 3 * score.pairs[0].paired->p, 1e-12);
 }
 
+// Two cells that go from one condition to another: 1, 2 and 3 over the middle of a scale from 1 to 7, and 0, 0 and 0,
+// which has no test but was to have one.
+TEST(ComputeResults, HolmCountsEveryCellThatIsComparedWithTheMiddle) {
+    Dataset data = two_raters();
+    data.questions = {{.id = "better", .kind = QuestionKind::rating, .points = 7}};
+    data.cells.insert(data.cells.end(), {"ours over baseline", "ours over third"});
+    data.sided_cells = {2, 3};
+    for (std::size_t p = 0; p < 3; ++p) {
+        data.scores.push_back({.participant = p, .cell = 2, .value = 5.0 + static_cast<double>(p)});
+        data.scores.push_back({.participant = p, .cell = 3, .value = 4});
+    }
+    const ScoreResult score = results_of(data).scores.at(0);
+    const MiddleTests &apart = score.cells.at(0).middle.value(), &same = score.cells.at(1).middle.value();
+    EXPECT_EQ(apart.middle, 4);
+    EXPECT_NEAR(apart.t->t, 2 * std::sqrt(3.0), 1e-12);
+    EXPECT_NEAR(apart.t_holm_p, 2 * apart.t->p, 1e-12);
+    EXPECT_NEAR(apart.ranks_holm_p, std::min(1.0, 2 * apart.ranks->p), 1e-12);
+    EXPECT_FALSE(same.t || same.ranks);
+    EXPECT_EQ(same.t_holm_p, 1);
+}
+
 // Anna is ranked by 1, 2 and 2 lower for ours than for the baseline, Ben higher by as much: t is 5 and -5, and Holm
 // takes the p of two pairs twice.
 TEST(ComputeResults, ComparesARankedOptionWithItselfAlone) {
