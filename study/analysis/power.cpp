@@ -83,6 +83,37 @@ Drawn draw_scores(const PowerDesign& design, std::size_t participants, Random& r
     return drawn;
 }
 
+// Less the middle of the scale.
+Drawn draw_sided_scores(const PowerDesign& design, std::size_t participants, Random& random) {
+    const std::vector<double> clips = draw_clips(design, random);
+    const double rest = std::sqrt(
+        std::max(0.0, 1 - design.participant_sd * design.participant_sd - design.clip_sd * design.clip_sd));
+    Drawn drawn;
+    for (std::size_t p = 0; p < participants; ++p) {
+        const double level = design.effect + design.participant_sd * random.normal();
+        const std::size_t count = share_of(design, 0, p);
+        double sum = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            sum += level + clips[(p + i) % clips.size()] + rest * random.normal();
+        if (count == 0) continue;
+        drawn.first.push_back(sum / static_cast<double>(count));
+        drawn.second.push_back(0);
+    }
+    return drawn;
+}
+
+Drawn draw_answers(const PowerDesign& design, std::size_t participants, Random& random) {
+    switch (design.kind) {
+        case AnswerKind::preferences:
+            return draw_preferences(design, participants, random);
+        case AnswerKind::scores:
+            return draw_scores(design, participants, random);
+        case AnswerKind::sided_scores:
+            return draw_sided_scores(design, participants, random);
+    }
+    return {};
+}
+
 PowerStep simulate(const PowerDesign& design, std::size_t participants) {
     // Numbers of participants have randomness of their own, so that no step depends on which others were
     // tried.
@@ -91,9 +122,7 @@ PowerStep simulate(const PowerDesign& design, std::size_t participants) {
     for (std::size_t run = 0; run < design.runs; ++run) {
         const std::uint64_t own = (static_cast<std::uint64_t>(seeds.next()) << 32) | seeds.next();
         Random random(own);
-        const Drawn drawn = design.kind == AnswerKind::preferences
-                                ? draw_preferences(design, participants, random)
-                                : draw_scores(design, participants, random);
+        const Drawn drawn = draw_answers(design, participants, random);
         const auto test = paired_t(drawn.first, drawn.second);
         // An effect counts as found only if it has the right sign.
         step.found += test && test->p < design.significance && test->difference * design.effect > 0;
@@ -109,20 +138,32 @@ std::string answers_text(const PowerDesign& design) {
     return least == most ? format("{}", least) : format("{} to {}", least, most);
 }
 
+std::string effect_text(const PowerDesign& design) {
+    switch (design.kind) {
+        case AnswerKind::preferences:
+            return format("{:g} Elo between two conditions", design.effect);
+        case AnswerKind::scores:
+            return format("a difference of {:g} sd between two conditions", design.effect);
+        case AnswerKind::sided_scores:
+            return format("a mean of {:g} sd from the middle of the scale", design.effect);
+    }
+    return "";
+}
+
 // The next number of participants to try: a third more.
 std::size_t more_than(std::size_t participants) {
     return std::max(participants + 1, participants * 4 / 3);
 }
 
 void refuse_nothing_to_find(const PowerDesign& design) {
-    const bool prefers = design.kind == AnswerKind::preferences;
     if (design.effect == 0)
         throw Error("--effect: is 0, which nobody can find; give the smallest that matters");
     const std::size_t most = *std::ranges::max_element(design.answers_each);
     if (most < design.shares) {
         throw Error(
             format("--power: a participant gives {} answers, and there are {} {}; let each give at least {}",
-                   most, design.shares, prefers ? "pairs of conditions" : "conditions", design.shares));
+                   most, design.shares,
+                   design.kind == AnswerKind::scores ? "conditions" : "pairs of conditions", design.shares));
     }
 }
 
@@ -164,8 +205,11 @@ PowerResult plan_power(const PowerDesign& design) {
 
 Json to_json(const PowerDesign& design, const PowerResult& result) {
     const bool prefers = design.kind == AnswerKind::preferences;
-    Json json = {{"answers", prefers ? "preferences" : "scores"},
-                 {prefers ? "pairs" : "conditions", design.shares},
+    const bool scores = design.kind == AnswerKind::scores;
+    Json json = {{"answers", prefers  ? "preferences"
+                             : scores ? "scores"
+                                      : "sided scores"},
+                 {scores ? "conditions" : "pairs", design.shares},
                  {"clips", design.clips},
                  {"answers_each", design.answers_each.size() == 1 ? Json(design.answers_each.front())
                                                                   : Json(design.answers_each)},
@@ -196,9 +240,7 @@ std::string to_text(const PowerDesign& design, const PowerResult& result) {
         text += format("{:>12}  {:>5.1f} %  {:>18}\n", step.participants, 100 * step.power,
                        format("[{:.1f} %, {:.1f} %]", 100 * step.power_95.low, 100 * step.power_95.high));
     }
-    const std::string effect = prefers
-                                   ? format("{:g} Elo between two conditions", design.effect)
-                                   : format("a difference of {:g} sd between two conditions", design.effect);
+    const std::string effect = effect_text(design);
     if (!result.needed) return text + format("\n{} needs more than {} participants\n", effect, kMost);
     const std::string most = result.at_most ? std::to_string(*result.at_most) : "more";
     const std::string answers =

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "core/error.h"
 #include "core/hash.h"
 #include "core/text.h"
 #include "core/version.h"
@@ -41,6 +42,28 @@ bool asks_scores(const Plan& plan) {
         return question.kind == QuestionKind::rating || question.kind == QuestionKind::slider ||
                question.kind == QuestionKind::number || question.kind == QuestionKind::rank;
     });
+}
+
+// A score of every video by itself.
+bool is_of_each_video(const Question& question) {
+    return question.each || (question.kind == QuestionKind::rank && is_of_videos(question));
+}
+
+// What the scores of a study are compared with.
+enum class Compared {
+    conditions,  // those of other conditions
+    middle,      // the middle of the scale: they go from one condition to another
+    groups,      // those of pages that show other conditions
+    nothing,
+};
+
+Compared compared_with(const Plan& plan) {
+    const bool alone = plan.groups.front().size() == 1;
+    if (!asks_scores(plan) || (alone && plan.groups.size() == 1)) return Compared::nothing;
+    if (alone || asks(plan, is_of_each_video)) return Compared::conditions;
+    const auto is_sided = [&](const Question& question) { return names_a_side(question, plan.layout); };
+    if (asks(plan, is_sided)) return Compared::middle;
+    return plan.groups.size() > 1 ? Compared::groups : Compared::nothing;
 }
 
 std::string quoted(const std::vector<std::string>& names) {
@@ -166,9 +189,11 @@ Sentences sample_size(const Source& from) {
 Sentences sample_size_rationale(const Source& from) {
     if (!from.power) return {};
     const bool prefers = from.design.kind == analysis::AnswerKind::preferences;
+    const bool sided = from.design.kind == analysis::AnswerKind::sided_scores;
     const std::string effect =
         prefers ? format("{:g} Elo between two conditions", from.design.effect)
-                : format("{:g} standard deviations of an answer between two conditions", from.design.effect);
+                : format("{:g} standard deviations of an answer {}", from.design.effect,
+                         sided ? "from the middle of the scale" : "between two conditions");
     Sentences says = {format("The smallest effect that matters is {}.", effect)};
     const std::string how = format(
         "by {} simulated studies of each size (participants and clips each with a standard deviation of {:g}, "
@@ -258,6 +283,10 @@ Sentences indices(const Source& from) {
     return says;
 }
 
+constexpr const char* kAgainstTheMiddle =
+    "Scores from A to B: for each two conditions the one-sample t test and Wilcoxon's test of the participants' scores "
+    "against the middle of the scale, where the two are equal.";
+
 Sentences models(const Source& from) {
     const Plan& plan = from.plan;
     Sentences says;
@@ -272,7 +301,10 @@ Sentences models(const Source& from) {
             "Scores: a participant sees one condition. For each two conditions Welch's t test of the participants' "
             "scores; over all a one-way analysis of variance with eta squared, and Fisher's least significant "
             "differences.");
+    } else if (compared_with(plan) == Compared::middle && plan.groups.size() == 1) {
+        says.push_back(kAgainstTheMiddle);
     } else if (asks_scores(plan)) {
+        if (compared_with(plan) == Compared::middle) says.push_back(kAgainstTheMiddle);
         says.push_back(
             "Scores: for each two conditions the paired t test and Wilcoxon's test of the participants' scores.");
         if (plan.conditions.size() > 2)
@@ -416,6 +448,19 @@ std::size_t fewest_choices(const Plan& plan) {
     return fewest;
 }
 
+[[noreturn]] void refuse_nothing_compared(const Plan& plan) {
+    const bool of_pages = asks_scores(plan) && plan.groups.front().size() > 1;
+    throw Error(
+        format("{}: no effect can be found, because {}; leave --power and \"smallest_effect\" out, or {}",
+               plan.file.string(),
+               of_pages ? "its questions are about the page as a whole and all pages show the same conditions"
+               : asks_scores(plan) ? "there is one condition alone"
+                                   : "it asks for neither preferences nor scores",
+               of_pages ? "ask with \"each\": true of every video, or with \"sided\": true from A to B"
+               : asks_scores(plan) ? "name another condition"
+                                   : "ask for a preference, a rating, a slider, a number or a ranking"));
+}
+
 // How many trials the sheets have, in turn; as short as it can be.
 std::vector<std::size_t> trials_in_turn(const Design& design) {
     std::vector<std::size_t> trials;
@@ -442,10 +487,15 @@ analysis::PowerDesign power_design(const Plan& plan, const Composition& all, std
         design.effect = wanted.value_or(kUsualElo);
         design.choices = fewest_choices(plan);
     } else {
-        design.kind = analysis::AnswerKind::scores;
-        design.shares = plan.conditions.size() - (plan.reference ? 1 : 0);
+        const Compared compared = compared_with(plan);
+        if (compared == Compared::nothing) refuse_nothing_compared(plan);
+        const bool of_conditions = compared == Compared::conditions;
+        design.kind =
+            compared == Compared::middle ? analysis::AnswerKind::sided_scores : analysis::AnswerKind::scores;
+        design.shares =
+            of_conditions ? plan.conditions.size() - (plan.reference ? 1 : 0) : plan.groups.size();
         design.effect = wanted.value_or(kUsualDifference);
-        if (asks(plan, [](const Question& question) { return question.each; })) {
+        if (asks(plan, is_of_each_video)) {
             for (std::size_t& answers : design.answers_each) answers *= plan.groups.front().size();
         }
     }
@@ -454,9 +504,12 @@ analysis::PowerDesign power_design(const Plan& plan, const Composition& all, std
 
 Preregistration make_preregistration(const Plan& plan, std::optional<double> effect) {
     const Composition all = compose(plan, kSeed);
-    const analysis::PowerDesign design = power_design(plan, all, effect, kSeed);
+    analysis::PowerDesign design;
     std::optional<analysis::PowerResult> power;
-    if (effect || plan.smallest_effect) power = plan_power(design);
+    if (effect || plan.smallest_effect) {
+        design = power_design(plan, all, effect, kSeed);
+        power = plan_power(design);
+    }
     const Source from = {.plan = plan, .all = all, .design = design, .power = power};
     Preregistration made{.title = plan.texts.title, .items = {}, .data = {}};
     Json items = Json::array();

@@ -29,7 +29,8 @@ struct Preregistration {
                 //  "power", "plan"}
 };
 
-// What a participant of the plan answers, and the effect to find: `effect`, else the plan's, else the usual one.
+// What a participant of the plan answers, and the effect to find: `effect`, else the plan's, else the usual one. Throws
+// Error if nothing is compared, as where one page question is asked of one pair of conditions.
 analysis::PowerDesign power_design(const Plan& plan, const Composition& all, std::optional<double> effect,
                                    std::uint64_t seed);
 

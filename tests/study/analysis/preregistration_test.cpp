@@ -140,6 +140,63 @@ TEST_F(Preregistered, FindsThePowerOfUnequalBlocksWhicheverComesFirst) {
     EXPECT_NEAR(needed(0) / needed(1), 1, 0.15);
 }
 
+// A CMOS of two clips, as the analysis tests it: t of one sample. The sd of a participant's mean is that of the participant
+// and of a half of the rest: n = 7.85 (0.3^2 + 0.82 / 2) / 0.5^2 + 2 = 17.7.
+TEST_F(Preregistered, FindsThePowerOfASidedSliderAgainstTheMiddleOfItsScale) {
+    Json plan = sample_plan();
+    plan["questions"] = Json::array({{{"id", "better"},
+                                      {"kind", "slider"},
+                                      {"text", "Which?"},
+                                      {"least", -3},
+                                      {"most", 3},
+                                      {"labels", {"B", "equal", "A"}},
+                                      {"sided", true}}});
+    const Outcome outcome = preregister(plan, {"--power", "--effect", "0.5"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("\na mean of 0.5 sd from the middle of the scale needs "));
+    EXPECT_THAT(outcome.out, HasSubstr(", 2 scores of each participant)"));
+    EXPECT_NEAR(data()["power"]["participants_needed"].get<double>(), 17.7, 1.7);
+    EXPECT_EQ(data()["power"]["answers"], "sided scores");
+    EXPECT_EQ(data()["power"]["pairs"], 1);
+    EXPECT_THAT(item("Sample size rationale")["fixed"].dump(),
+                HasSubstr("0.5 standard deviations of an answer from the middle of the scale"));
+    EXPECT_THAT(item("Statistical models")["fixed"].dump(), HasSubstr("against the middle of the scale"));
+    EXPECT_THAT(item("Statistical models")["fixed"].dump(), Not(HasSubstr("paired t")));
+}
+
+TEST_F(Preregistered, RefusesThePowerOfWhatComparesNothing) {
+    Json plan = sample_plan();
+    plan["questions"] = Json::array(
+        {{{"id", "natural"}, {"kind", "rating"}, {"points", 7}, {"sided", false}, {"text", "How natural?"}}});
+    EXPECT_EQ(preregister(plan).exit_code, 0) << "without an effect";
+    const auto refusal = [&] {
+        const Outcome outcome = preregister(plan, {"--power"});
+        EXPECT_EQ(outcome.exit_code, 3);
+        return outcome.err;
+    };
+    EXPECT_THAT(refusal(),
+                HasSubstr("plan.json: no effect can be found, because its questions are about the page as a "
+                          "whole and all pages show the same conditions; leave --power and "
+                          "\"smallest_effect\" out, or ask with \"each\": true of every video, or with "
+                          "\"sided\": true from A to B"));
+    // Of three pairs the pages are compared with each other.
+    plan["conditions"].push_back({{"name", "frozen"}, {"from", "ours"}, {"by", "frozen"}});
+    EXPECT_EQ(preregister(plan, {"--power"}).exit_code, 0);
+    plan = sample_plan();
+    plan["questions"] =
+        Json::array({{{"id", "who"}, {"kind", "choice"}, {"of_videos", true}, {"text", "Which?"}}});
+    EXPECT_THAT(refusal(), HasSubstr("because it asks for neither preferences nor scores; leave --power and "
+                                     "\"smallest_effect\" out, or ask for a preference, a rating,"));
+    plan["layout"] = "single";
+    plan["questions"] =
+        Json::array({{{"id", "natural"}, {"kind", "rating"}, {"points", 7}, {"text", "How?"}}});
+    plan["conditions"].erase(1);
+    for (Json& clip : plan["clips"]) clip["motion"].erase("baseline");
+    EXPECT_THAT(refusal(),
+                HasSubstr("because there is one condition alone; leave --power and \"smallest_effect\" out, "
+                          "or name another condition"));
+}
+
 TEST_F(Preregistered, SaysWhatThePlanSays) {
     Json plan = sample_plan();
     plan["participants"] = 12;
