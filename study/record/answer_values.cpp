@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <limits>
 #include <set>
 #include <string>
 
@@ -79,10 +78,13 @@ std::string limits_text(const Question& question) {
 }
 
 std::string fault_of_number(const Question& question, const Json& value) {
-    constexpr double kAny = std::numeric_limits<double>::infinity();
-    const bool right =
-        lies_in(value, question.least ? *question.least : -kAny, question.most ? *question.most : kAny);
-    return right ? "" : "a number" + limits_text(question) + " is needed";
+    Question limited = question;
+    limited.least = question.least.value_or(-kFarthestNumber);
+    limited.most = question.most.value_or(kFarthestNumber);
+    if (lies_in(value, *limited.least, *limited.most)) return "";
+    // Limits that the question does not name are named where they are crossed.
+    const bool too_far = value.is_number() && !lies_in(value, -kFarthestNumber, kFarthestNumber);
+    return "a number" + limits_text(too_far ? limited : question) + " is needed";
 }
 
 }  // namespace

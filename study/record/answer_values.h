@@ -12,6 +12,10 @@
 
 namespace chironomia::study {
 
+// The least and the most answer to a question for a number where it names none: what is further off is a slip, and its
+// square would be too large to compute with. As in study/web/questions.js.
+inline constexpr int kFarthestNumber = 1'000'000'000;
+
 // What is needed, if `value` does not answer the question on a page of so many places: "a whole number from 1 to 5 is
 // needed". "" if it does; null answers an optional question.
 std::string fault_of_answer(const Question& question, const Json& value, std::size_t places);

@@ -424,21 +424,26 @@ function makeText(question, names, changed) {
   return {question, element: labelled(question, area), lines: [], value};
 }
 
+// Where a question names no limit; as kFarthestNumber in study/record/answer_values.h.
+const kFarthestNumber = 1e9;
+
 function makeNumber(question, names, changed) {
   const {least, most} = question;
   const input = element('input', {type: 'number', step: 'any', inputMode: 'decimal', autocomplete: 'off'});
-  const limits = [least, most].every((limit) => typeof limit === 'number') ? say('number_between', {least, most}) : '';
-  if (limits) input.placeholder = `${least}–${most}`;
+  if ([least, most].every((limit) => typeof limit === 'number')) input.placeholder = `${least}–${most}`;
   input.addEventListener('input', changed);
-  const fits = (number) => (least ?? -Infinity) <= number && number <= (most ?? Infinity);
+  const from = least ?? -kFarthestNumber;
+  const to = most ?? kFarthestNumber;
+  const limits = say('number_between', {least: from, most: to});
+  const fits = (number) => from <= number && number <= to;
   const wrong = () => input.validity.badInput || (input.value !== '' && !fits(Number(input.value)));
   const message = element('span', {className: 'wrong', id: newId('wrong')});
   input.setAttribute('aria-describedby', message.id);
   const refresh = () => {
     input.setAttribute('aria-invalid', String(wrong()));
-    message.textContent = wrong() ? limits || say('not_set') : '';
+    message.textContent = wrong() ? limits : '';
   };
-  const problem = () => (wrong() ? `${question.text} – ${limits || say('not_set')}` : '');
+  const problem = () => (wrong() ? `${question.text} – ${limits}` : '');
   const value = () => (input.value === '' || wrong() ? null : Number(input.value));
   const field = element('div', {className: 'field open'});
   field.append(labelled(question, input), message);

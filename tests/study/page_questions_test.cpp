@@ -151,6 +151,18 @@ TEST_F(StudyPageQuestions, RefuseANumberOutsideItsLimits) {
     EXPECT_EQ(evaluate(at_the_field), "");
 }
 
+// As the server and the analysis do (answer_values_test.cpp).
+TEST_F(StudyPageQuestions, RefuseANumberWithoutLimitsThatIsATypingSlip) {
+    ask("single", 1, {{{"id", "n"}, {"kind", "number"}, {"text", "How many?"}, {"optional", true}}});
+    open_watched();
+    evaluate("document.querySelector('input[type=number]').focus()");
+    for (const char* key : {"1", "e", "9"}) browser_->press(key);
+    EXPECT_TRUE(may_go_on());
+    browser_->press("9");
+    EXPECT_FALSE(may_go_on());
+    EXPECT_EQ(text_of("status"), "How many? – A number from -1000000000 to 1000000000");
+}
+
 TEST_F(StudyPageQuestions, RankByKeysAndTakeRanksBack) {
     ask("single", 1,
         {{{"id", "order"}, {"kind", "rank"}, {"text", "?"}, {"options", options({"x", "y", "z"})}}});

@@ -114,6 +114,20 @@ TEST(AnalyseQuestions, ComparesASidedSliderWithTheMiddleOfItsScale) {
         EXPECT_THAT(report, HasSubstr(title));
 }
 
+// Of 1e160 the sums of squares are infinite.
+TEST(AnalyseQuestions, RefusesANumberThatNobodyMeans) {
+    const TemporaryFolder folder;
+    write_sample_study(sample_asking({{"id", "many"}, {"kind", "number"}, {"text", "How many?"}}),
+                       folder / "study");
+    int answers = 0;
+    const Outcome outcome = analyse_with(folder, [&](Json& answer, bool) {
+        answer["values"]["many"] = answers++ == 0 ? Json(1e160) : Json(answers);
+    });
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("a number from -1000000000 to 1000000000 is needed"));
+    EXPECT_THAT(outcome.err, Not(HasSubstr("fault of the program")));
+}
+
 // As studies of before were built: a number that means nothing, and a note.
 TEST(AnalyseQuestions, SaysThatAnswersAreNotTurned) {
     const TemporaryFolder folder;
