@@ -209,16 +209,18 @@ ForestRow share_row(const std::string& label, std::size_t chosen, std::size_t of
 
 std::string elo_text(const EloRow& row) {
     if (!row.elo_95) return format("{:.0f}", row.elo);
-    return format("{:.0f} [{:.0f}, {:.0f}]", row.elo, row.elo_95->low, row.elo_95->high);
+    const auto end = [](double at) { return std::isfinite(at) ? format("{:.0f}", at) : "–"; };
+    return format("{:.0f} [{}, {}]", row.elo, end(row.elo_95->low), end(row.elo_95->high));
 }
 
 std::string elo_plot(const Dataset& data, const EloResult& result) {
     std::vector<ForestRow> rows;
     double low = 1000, high = 1000;
     for (const EloRow& row : result.table.rows) {
-        const Interval around = row.elo_95.value_or(Interval{row.elo, row.elo});
-        low = std::min({low, row.elo, around.low});
-        high = std::max({high, row.elo, around.high});
+        low = std::min(low, row.elo);
+        high = std::max(high, row.elo);
+        if (row.elo_95 && std::isfinite(row.elo_95->low)) low = std::min(low, row.elo_95->low);
+        if (row.elo_95 && std::isfinite(row.elo_95->high)) high = std::max(high, row.elo_95->high);
         rows.push_back({.label = data.conditions[result.conditions[row.condition]].name,
                         .note = format("{} votes", row.votes),
                         .value = row.elo,
@@ -228,6 +230,12 @@ std::string elo_plot(const Dataset& data, const EloResult& result) {
     const double margin = std::max(20.0, 0.06 * (high - low));
     Axis axis{.low = low - margin, .high = high + margin, .tick_text = plain};
     axis.ticks = round_ticks(axis.low, axis.high, 5);
+    // Ends without bound go to the end of the axis.
+    for (ForestRow& row : rows) {
+        if (row.interval)
+            row.interval =
+                Interval{std::max(axis.low, row.interval->low), std::min(axis.high, row.interval->high)};
+    }
     return forest_plot(data, rows,
                        {.description = "Strengths on the scale of Elo", .axis = axis, .reference = 1000});
 }

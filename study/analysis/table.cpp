@@ -89,7 +89,9 @@ ShownTable show(const Table& table) {
                 continue;
             }
             shown.rows.back().push_back(
-                row[c].number ? format("[{}, {}]", show_cell(row[c], how), show_cell(row[c + 1], how)) : "–");
+                row[c].number || row[c + 1].number
+                    ? format("[{}, {}]", show_cell(row[c], how), show_cell(row[c + 1], how))
+                    : "–");
             ++c;
         }
     }

@@ -1,6 +1,7 @@
 // What the tables of results are written from, for the files that write them.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -24,9 +25,13 @@ struct TableSource {
 using Row = std::vector<Cell>;  // of a table
 
 // Both ends, or two empty cells.
+// An end without bound is an empty cell.
 inline void append(Row& row, const std::optional<Interval>& interval) {
-    row.push_back(interval ? std::optional(interval->low) : std::nullopt);
-    row.push_back(interval ? std::optional(interval->high) : std::nullopt);
+    const auto end = [&](double Interval::*at) {
+        return interval && std::isfinite(*interval.*at) ? std::optional(*interval.*at) : std::nullopt;
+    };
+    row.push_back(end(&Interval::low));
+    row.push_back(end(&Interval::high));
 }
 
 }  // namespace chironomia::study::analysis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/random.h"
@@ -53,6 +54,30 @@ bool is_bounded(const VoteTable& table) {
     const auto beats = [&](std::size_t a, std::size_t b) { return table.at(a, b) > 0; };
     const auto loses = [&](std::size_t a, std::size_t b) { return table.at(b, a) > 0; };
     return all(reached_from(0, table.conditions, beats)) && all(reached_from(0, table.conditions, loses));
+}
+
+struct Ends {
+    bool low = false;
+    bool high = false;
+};
+
+// Which ends of each strength, beside the mean of all, have no bound. Where a condition won all against some and lost
+// all against others, or nothing joins it to others, that is either.
+std::vector<Ends> ends_without_bound(const VoteTable& table) {
+    const std::size_t n = table.conditions;
+    std::vector<std::vector<bool>> beaten;  // over any number of others
+    for (std::size_t i = 0; i < n; ++i)
+        beaten.push_back(
+            reached_from(i, n, [&](std::size_t a, std::size_t b) { return table.at(a, b) > 0; }));
+    std::vector<Ends> ends(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            if (beaten[i][j] && beaten[j][i]) continue;
+            ends[i].high = ends[i].high || !beaten[j][i];
+            ends[i].low = ends[i].low || !beaten[i][j];
+        }
+    }
+    return ends;
 }
 
 bool ever_beats(const VoteTable& table, std::size_t condition) {
@@ -154,6 +179,23 @@ std::optional<Interval> percentiles_95(const std::vector<double>& sorted) {
     return sorted.back() - sorted.front() < kRounding ? std::nullopt : std::optional(interval_95(sorted));
 }
 
+// How many resamples leave an end without bound.
+struct EndCounts {
+    std::size_t low = 0;
+    std::size_t high = 0;
+};
+
+// An end that more than 2.5 % of the resamples leave without bound lies there itself.
+std::optional<Interval> without_bounds(std::optional<Interval> interval, const EndCounts& open,
+                                       std::size_t samples) {
+    if (!interval) return interval;
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    const auto is_open = [&](std::size_t count) { return 40 * count > samples; };
+    if (is_open(open.low)) interval->low = -kFar;
+    if (is_open(open.high)) interval->high = kFar;
+    return is_open(open.low) && is_open(open.high) ? std::nullopt : interval;
+}
+
 // The entries of each participant's own table that are not 0.
 struct Entry {
     std::size_t place = 0;
@@ -221,9 +263,18 @@ EloTable estimate_elo(std::span<const Vote> votes, std::size_t conditions, std::
 
     const std::vector<std::vector<Entry>> tables = tabulate_each(votes, conditions, participants);
     Random random(resampling.seed);
+    std::vector<EndCounts> open(conditions);
     for (std::size_t sample = 0; sample < resampling.samples; ++sample) {
-        const Fit drawn = fit(resample(tables, conditions, random), table, whole.log_strengths);
-        result.unbounded_samples += !drawn.bounded;
+        const VoteTable resampled = resample(tables, conditions, random);
+        const Fit drawn = fit(resampled, table, whole.log_strengths);
+        if (!drawn.bounded) {
+            ++result.unbounded_samples;
+            const std::vector<Ends> ends = ends_without_bound(resampled);
+            for (std::size_t i = 0; i < conditions; ++i) {
+                open[i].low += ends[i].low;
+                open[i].high += ends[i].high;
+            }
+        }
         result.samples.push_back(to_elo(drawn.log_strengths));
     }
     for (std::size_t condition = 0; condition < conditions; ++condition) {
@@ -240,7 +291,9 @@ EloTable estimate_elo(std::span<const Vote> votes, std::size_t conditions, std::
                                .lost_all = !ever_beats(table, condition),
                                .elo = elo[condition],
                                .median = percentile_of_sorted(drawn, 0.5),
-                               .elo_95 = says_nothing ? std::nullopt : percentiles_95(drawn)});
+                               .elo_95 = says_nothing ? std::nullopt
+                                                      : without_bounds(percentiles_95(drawn), open[condition],
+                                                                       result.samples.size())});
     }
     std::stable_sort(result.rows.begin(), result.rows.end(),
                      [](const EloRow& a, const EloRow& b) { return a.median > b.median; });

@@ -49,7 +49,8 @@ struct EloRow {
     double elo = 0;     // of all participants
     double median = 0;  // over the resamples
     // Between the percentiles 2.5 and 97.5 of the resamples; none where they say nothing of other participants: of one
-    // participant, of resamples that are all the same, and of those that all leave some strength without bound.
+    // participant, of resamples that are all the same, and of those that all leave some strength without bound. An end
+    // that more than 2.5 % of them leave without bound is infinite.
     std::optional<Interval> elo_95;
 };
 

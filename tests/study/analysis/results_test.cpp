@@ -356,6 +356,29 @@ TEST(TablesOf, StrengthsWithoutBoundSayWhoWonAllAndHaveNoInterval) {
     EXPECT_THAT(plots.front().svg, ::testing::Not(HasSubstr(" [")));
 }
 
+// The first of two wins all in 30 % of the resamples, so that its strength has no upper end and the other's no lower one.
+TEST(TablesOf, AnEndThatManyResamplesLeaveWithoutBoundIsADash) {
+    Dataset data = two_raters();
+    data.questions = {{.id = "realism", .kind = QuestionKind::preference, .answers = {"a", "b", "c"}}};
+    data.preferences = {vote(0, 1, 0), vote(1, 1, 0), vote(1, -1, 0), vote(2, 1, 0)};
+    const Results results = results_of(data);
+    for (const Table& table : tables_of(data, results)) {
+        if (table.id != "elo") continue;
+        const Json rows = to_json(table);
+        EXPECT_EQ(rows[0]["condition"], "ours");
+        EXPECT_TRUE(rows[0]["elo_low"].is_number());
+        EXPECT_EQ(rows[0]["elo_high"], Json());
+        EXPECT_EQ(rows[1]["elo_low"], Json());
+        EXPECT_TRUE(rows[1]["elo_high"].is_number());
+        EXPECT_THAT(to_text(table), HasSubstr(", –]"));
+        EXPECT_THAT(to_text(table), HasSubstr("[–, "));
+    }
+    const std::vector<Plot> plots = plots_of(data, results);
+    ASSERT_EQ(plots.front().name, "realism-elo");
+    EXPECT_THAT(plots.front().svg, HasSubstr(", –]"));
+    EXPECT_THAT(plots.front().svg, ::testing::Not(HasSubstr("inf")));
+}
+
 TEST(TablesOf, EveryNumberHasItsQuestionAndItsN) {
     Dataset data = two_raters();
     data.questions = {{.id = "realism", .kind = QuestionKind::preference, .answers = {"a", "b", "c"}}};

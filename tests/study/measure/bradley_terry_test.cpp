@@ -121,6 +121,25 @@ TEST(EstimateElo, TheIntervalIsThatOfTheShareOfParticipants) {
     EXPECT_EQ(table.unbounded_samples, 0u);
 }
 
+// Two of twelve prefer the second: (10 / 12)^12 = 11 % of the resamples have none of them, in which the first wins all.
+TEST(EstimateElo, HasNoEndWhereTooManyResamplesHaveNone) {
+    std::vector<Vote> votes;
+    for (std::size_t p = 0; p < 12; ++p) votes.push_back({p, 0, 1, p < 2 ? -1 : 1});
+    const EloTable two = estimate_elo(votes, 2, 12, {.samples = 1000, .seed = 1});
+    EXPECT_TRUE(two.finite);
+    EXPECT_NEAR(static_cast<double>(two.unbounded_samples), 112, 40);
+    ASSERT_TRUE(two.rows[0].elo_95 && two.rows[1].elo_95);
+    EXPECT_TRUE(std::isinf(two.rows[0].elo_95->high));
+    EXPECT_TRUE(std::isinf(two.rows[1].elo_95->low));
+    EXPECT_NEAR(two.rows[0].elo_95->low, 2000 - two.rows[1].elo_95->high, 1e-6);
+    EXPECT_GT(two.rows[0].elo_95->low, 1000);
+    // With 24 it is 1.3 %: both ends are there.
+    for (std::size_t p = 0; p < 12; ++p) votes.push_back({12 + p, 0, 1, p < 2 ? -1 : 1});
+    const EloTable more = estimate_elo(votes, 2, 24, {.samples = 1000, .seed = 1});
+    EXPECT_GT(more.unbounded_samples, 0u);
+    EXPECT_TRUE(std::isfinite(more.rows[0].elo_95->high));
+}
+
 TEST(EstimateElo, TheSameSeedGivesTheSameSamples) {
     const auto votes = nine_of_ten();
     const EloTable a = estimate_elo(votes, 2, 100, {.samples = 50, .seed = 9}),
