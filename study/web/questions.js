@@ -93,6 +93,14 @@ class Radios {
     return this.value === null;
   }
 
+  get begun() {
+    return !this.open();
+  }
+
+  clear() {
+    for (const input of this.inputs) input.checked = false;
+  }
+
   pick(n) {
     if (n < 1 || n > this.inputs.length) return false;
     this.inputs[n - 1].checked = true;
@@ -246,6 +254,20 @@ function makeGroup(questions, names, changed) {
   });
 }
 
+// Who has begun to answer an optional question of all videos may take everything back, so as to leave it open.
+function offerToClear({question, element: field, lines}, changed) {
+  if (!question.optional || !question.each) return;
+  const again = element('button', {type: 'button', className: 'plain', disabled: true}, say('rank_again'));
+  again.addEventListener('click', () => {
+    for (const line of lines) line.clear();
+    changed();
+  });
+  field.querySelector('legend').append(' ', again);
+  return () => {
+    again.disabled = !lines.some((line) => line.begun);
+  };
+}
+
 // One question of every video by itself.
 function makeEach(question, names, changed, place) {
   const field = fieldsetOf(question, 'each');
@@ -253,7 +275,9 @@ function makeEach(question, names, changed, place) {
   const {grid, radios} = makeMatrix(lines, question, names, changed, place);
   grid.classList.add('videos');
   field.append(grid);
-  return {question, element: field, lines: radios, value: () => arrayOf(radios.map((one) => one.value))};
+  const made = {question, element: field, lines: radios, value: () => arrayOf(radios.map((one) => one.value))};
+  made.refresh = offerToClear(made, changed);
+  return made;
 }
 
 // Answers of all videos; null while one is missing.
@@ -265,18 +289,25 @@ function arrayOf(values) {
 class Slider {
   constructor(question, label, changed) {
     const {least, most} = question;
-    this.touched = false;
+    this.middle = String(Math.round((least + most) / 2));
     this.changed = changed;
-    this.input = element('input', {type: 'range', min: least, max: most, step: 1, className: 'untouched'});
-    this.input.value = String(Math.round((least + most) / 2));
+    this.input = element('input', {type: 'range', min: least, max: most, step: 1});
     this.input.setAttribute('aria-label', label);
-    this.input.setAttribute('aria-valuetext', say('not_set'));
-    this.output = element('output', {}, '–');
+    this.output = element('output');
+    this.clear();
     for (const type of ['input', 'change', 'click']) this.input.addEventListener(type, () => this.touch());
     this.input.addEventListener('keydown', (event) => {
       if (event.key === ' ') event.preventDefault();
       if (event.key === ' ') this.touch();
     });
+  }
+
+  clear() {
+    this.touched = false;
+    this.input.value = this.middle;
+    this.input.classList.add('untouched');
+    this.input.setAttribute('aria-valuetext', say('not_set'));
+    this.output.textContent = '–';
   }
 
   touch() {
@@ -293,6 +324,10 @@ class Slider {
 
   open() {
     return !this.touched;
+  }
+
+  get begun() {
+    return this.touched;
   }
 
   pick() {
@@ -337,7 +372,9 @@ function makeSliders(question, names, changed, place) {
   }
   field.append(...lines.map((line) => line.element));
   const values = () => lines.map((line) => line.value);
-  return {question, element: field, lines, value: () => (question.each ? arrayOf(values()) : lines[0].value)};
+  const made = {question, element: field, lines, value: () => (question.each ? arrayOf(values()) : lines[0].value)};
+  made.refresh = offerToClear(made, changed);
+  return made;
 }
 
 // Options are pressed from the best to the worst; pressing one again takes it out.
@@ -389,6 +426,10 @@ class Ranking {
 
   open() {
     return this.ranked.length < this.options.length;
+  }
+
+  get begun() {
+    return this.ranked.length > 0;
   }
 
   pick(n) {
@@ -459,6 +500,11 @@ function makeQuestions(group, names, changed, place) {
   return maker ? [maker(first, names, changed, place)] : makeGroup(group, names, changed);
 }
 
+// Whether an answer is missing: an optional one only where a part of it is given, which would be lost.
+function isOpen({question, lines, value}) {
+  return value() === null && (!question.optional || lines.some((line) => line.begun));
+}
+
 // ---- All questions of a page
 
 class QuestionForm {
@@ -492,9 +538,9 @@ class QuestionForm {
     for (const line of this.lines) line.element.classList.toggle('current', line === next);
   }
 
-  // How many required questions are open.
+  // How many questions must still be answered.
   get open() {
-    return this.made.filter((one) => one.value() === null && !one.question.optional).length;
+    return this.made.filter(isOpen).length;
   }
 
   // What else is wrong, in words.

@@ -163,6 +163,58 @@ TEST_F(StudyPageQuestions, RefuseANumberWithoutLimitsThatIsATypingSlip) {
     EXPECT_EQ(text_of("status"), "How many? – A number from -1000000000 to 1000000000");
 }
 
+// A part of an answer that may be left open would be lost: it is completed, or taken back.
+TEST_F(StudyPageQuestions, OfAllVideosAreAnsweredForAllOrForNone) {
+    const Json slider = {{"id", "quality"}, {"kind", "slider"}, {"text", "?"},     {"least", 0},
+                         {"most", 100},     {"each", true},     {"optional", true}};
+    const Json each = {{"id", "each"}, {"kind", "rating"}, {"text", "?"},
+                       {"points", 5},  {"each", true},     {"optional", true}};
+    ask("parallel", 3, {slider, each});
+    open_watched();
+    EXPECT_TRUE(may_go_on());
+    const auto move = [&](int place, int value) {
+        evaluate(
+            format("(() => {{ const slider = document.querySelectorAll('[data-question=quality] input')[{}]; "
+                   "slider.value = {}; slider.dispatchEvent(new Event('input', {{bubbles: true}})); "
+                   "slider.dispatchEvent(new Event('change', {{bubbles: true}})); }})()",
+                   place, value));
+    };
+    const auto rate = [&](int place, int value) {
+        evaluate(format("document.querySelectorAll('[data-question=each] input')[{}].click()",
+                        5 * place + value - 1));
+    };
+    move(0, 80);
+    move(1, 20);
+    EXPECT_FALSE(may_go_on());
+    EXPECT_EQ(text_of("status"), "One question is still open.");
+    rate(2, 4);
+    EXPECT_EQ(text_of("status"), "2 questions are still open.");
+    click("[data-question=quality] button.plain");
+    click("[data-question=each] button.plain");
+    EXPECT_TRUE(may_go_on());
+    EXPECT_EQ(values(), Json({{"quality", nullptr}, {"each", nullptr}}));
+    EXPECT_EQ(evaluate("document.querySelector('[data-question=quality] output').textContent"), "–");
+    for (int place = 0; place < 3; ++place) move(place, 10 * place);
+    for (int place = 0; place < 3; ++place) rate(place, place + 1);
+    EXPECT_TRUE(may_go_on());
+    EXPECT_EQ(values(), Json({{"quality", {0, 10, 20}}, {"each", {1, 2, 3}}}));
+}
+
+TEST_F(StudyPageQuestions, RankAllOptionsOrNone) {
+    ask("single", 1,
+        {{{"id", "order"},
+          {"kind", "rank"},
+          {"text", "?"},
+          {"options", options({"x", "y", "z"})},
+          {"optional", true}}});
+    open_watched();
+    EXPECT_TRUE(may_go_on());
+    browser_->press("3");
+    EXPECT_FALSE(may_go_on());
+    click("#questions button.plain");
+    EXPECT_TRUE(may_go_on());
+}
+
 TEST_F(StudyPageQuestions, RankByKeysAndTakeRanksBack) {
     ask("single", 1,
         {{{"id", "order"}, {"kind", "rank"}, {"text", "?"}, {"options", options({"x", "y", "z"})}}});

@@ -60,6 +60,18 @@ TEST_F(Entries, AnswerWhatWasAsked) {
     EXPECT_THAT(fit([](Json& entry) { entry["skipped"] = 1; }), HasSubstr("true or false"));
 }
 
+// A part of an optional answer is none.
+TEST_F(Entries, RateAllVideosOrNone) {
+    write_sample_study(folder_.path(), {});
+    Json pages = read_json(folder_ / "public/pages.json");
+    pages["questions"][1]["optional"] = true;
+    write_json(folder_ / "public/pages.json", pages);
+    EXPECT_EQ(fault_after([](Json& entry) { entry["values"]["human"] = nullptr; }).fit, "");
+    for (const Json& part : {Json({3, nullptr}), Json({nullptr, nullptr})})
+        EXPECT_THAT(fault_after([&](Json& entry) { entry["values"]["human"] = part; }).fit,
+                    HasSubstr("for each of 2 videos a whole number from 1 to 7 is needed"));
+}
+
 TEST_F(Entries, GiveReasonsWhereTheyAreAskedFor) {
     const auto fit = [&](auto change) { return fault_after(change).fit; };
     EXPECT_THAT(fit([](Json& entry) { entry["reasons"] = Json::object(); }), HasSubstr("a reason is needed"));
