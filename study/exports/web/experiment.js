@@ -166,13 +166,35 @@ function needsReasons(question, value) {
 // A slider rests in the middle; it has an answer, and with it a name, once somebody has touched it.
 function waitForSliders() {
   for (const slider of document.querySelectorAll('input[type=range]')) {
-    if (slider.dataset.needed) slider.setCustomValidity('Please move this slider, or click on it.');
+    if (slider.dataset.needed) requireSlider(slider);
     for (const touch of ['input', 'pointerdown']) {
       slider.addEventListener(touch, () => {
         slider.name = slider.dataset.name;
         slider.setCustomValidity('');
       });
     }
+  }
+}
+
+function requireSlider(slider) {
+  if (!slider.name) slider.setCustomValidity('Please move this slider, or click on it.');
+}
+
+// An optional question of all videos is left open or answered for each of them: an answer to one asks for the others.
+function waitForTheOthers(questions) {
+  for (const question of questions.filter((one) => one.each && one.optional)) {
+    const inputs = [...document.getElementById(`question-${question.id}`).querySelectorAll('input')];
+    for (const input of inputs) {
+      input.addEventListener('input', () => requireAll(inputs));
+      if (input.type === 'range') input.addEventListener('pointerdown', () => requireAll(inputs));
+    }
+  }
+}
+
+function requireAll(inputs) {
+  for (const input of inputs) {
+    if (input.type === 'range') requireSlider(input);
+    else input.required = true;
   }
 }
 
@@ -234,7 +256,7 @@ function questionHtml(question, names) {
       `<p><b>${escapeHtml(name)}</b> ${fieldHtml(question, `${question.id}.${place}`, names)}</p>`).join('') :
       `<p>${fieldHtml(question, question.id, names)}</p>`;
   const text = question.optional ? `${question.text} (optional)` : question.text;
-  return `<fieldset style="min-width: 0"><legend>${escapeHtml(text)}</legend>${fields}${reasonsHtml(question)}</fieldset>`;
+  return `<fieldset id="question-${question.id}" style="min-width: 0"><legend>${escapeHtml(text)}</legend>${fields}${reasonsHtml(question)}</fieldset>`;
 }
 
 // ---- From fields back to values
@@ -245,10 +267,15 @@ function valueOf(question, text) {
   return isWord ? text : Number(text);
 }
 
+// Of all videos; null where the question is left open.
+function valueOfEach(question, fields, places) {
+  const values = range(0, places - 1).map((place) => valueOf(question, fields[`${question.id}.${place}`]));
+  return values.every((value) => value === null) ? null : values;
+}
+
 function valuesOf(questions, fields, places) {
   return Object.fromEntries(questions.map((question) => [question.id, question.each ?
-      range(0, places - 1).map((place) => valueOf(question, fields[`${question.id}.${place}`])) :
-      valueOf(question, fields[question.id])]));
+      valueOfEach(question, fields, places) : valueOf(question, fields[question.id])]));
 }
 
 function reasonsOf(questions, fields, values) {
@@ -309,7 +336,12 @@ function trialOf(step) {
     type: jsPsychSurveyHtmlForm,
     html: `${videosHtml(step)}<fieldset id="questions" style="border: 0; min-width: 0">
       ${questions.map((question) => questionHtml(question, namesOf(step))).join('')}</fieldset>`,
-    on_load: () => { waitForVideos(); waitForSliders(); waitForReasons(questions); },
+    on_load: () => {
+      waitForVideos();
+      waitForSliders();
+      waitForTheOthers(questions);
+      waitForReasons(questions);
+    },
     on_finish: (data) => {
       const values = valuesOf(questions, data.response, step.places);
       keepAnswer(data, answerOf(step, values, reasonsOf(questions, data.response, values), data.rt));

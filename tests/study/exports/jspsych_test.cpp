@@ -118,6 +118,85 @@ TEST(Jspsych, RefusesRankings) {
     EXPECT_THAT(sample.refusal(ExportForm::jspsych), HasSubstr("\"order\" is a ranking"));
 }
 
+// The first page with questions, without jsPsych: what takes its place shows the form of a trial again and again.
+class JspsychForm : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        if (!Browser::is_installed()) GTEST_SKIP() << "needs chromium";
+        browser_.emplace(profile_.path());
+    }
+
+    // `index` of the question that may be left open; the others are not asked.
+    void open(const std::string& layout, std::size_t index, const std::string& query = "?sheet=0&p=ada") {
+        sample_.emplace(SampleStudy{.layout = layout, .checks = 0, .sheets = 1});
+        const auto make_optional = [&](Json& json) { json["questions"][index]["optional"] = true; };
+        sample_->change("private/key.json", make_optional);
+        sample_->change("public/pages.json", [&](Json& pages) {
+            make_optional(pages);
+            for (Json& page : pages["pages"]) page["passes"][0]["questions"] = {index};
+        });
+        sample_->write(ExportForm::jspsych);
+        write_text(sample_->open("jspsych/jspsych.js"), R"(
+const jsPsychPreload = {}, jsPsychHtmlButtonResponse = {}, jsPsychVideoButtonResponse = {}, jsPsychSurveyHtmlForm = {};
+const initJsPsych = () => ({
+    randomization: {randomID: (length) => 'x'.repeat(length), randomInt: (least) => least},
+    getDisplayElement: () => document.body,
+    run(timeline) {
+        const trial = timeline.find((one) => one.type === jsPsychSurveyHtmlForm);
+        document.body.innerHTML = `<form>${trial.html}<input type="submit"></form>`;
+        const form = document.querySelector('form');
+        form.addEventListener('submit', (event) => {
+            event.preventDefault();
+            trial.on_finish({response: Object.fromEntries(new FormData(form)), rt: 1000});
+        });
+        trial.on_load();
+    },
+}); )");
+        browser_->open("file://" + sample_->open("index.html").string() + query);
+        browser_->evaluate(
+            "document.querySelectorAll('video').forEach((video) => video.dispatchEvent(new Event('ended')))");
+    }
+
+    // The values that were sent so far.
+    Json sent() {
+        return browser_->evaluate(
+            "(document.querySelector('[type=submit]').click(), kept.answers.map((answer) => "
+            "answer.values.human))");
+    }
+
+    void touch(const std::string& selector, int which, const std::string& how) {
+        browser_->evaluate(format("document.querySelectorAll('{}')[{}].{}", selector, which, how));
+    }
+
+    testing::TemporaryFolder profile_;
+    std::optional<Browser> browser_;
+    std::optional<ExportedSample> sample_;
+};
+
+TEST_F(JspsychForm, LeavesSlidersOpenOrAsksForAll) {
+    open("parallel", 0);
+    EXPECT_EQ(sent(), Json::array({nullptr}));
+    touch("input[type=range]", 1, "dispatchEvent(new Event('input', {bubbles: true}))");
+    EXPECT_EQ(sent(), Json::array({nullptr})) << "three are asked for";
+    for (const int slider : {0, 2, 3})
+        touch("input[type=range]", slider, "dispatchEvent(new Event('pointerdown'))");
+    EXPECT_EQ(sent(), Json::array({nullptr, {50, 50, 50, 50}}));
+}
+
+// The analysis takes what it sends.
+TEST_F(JspsychForm, LeavesRatingsOpenOrAsksForAll) {
+    open("pair", 1);
+    EXPECT_EQ(sent(), Json::array({nullptr}));
+    const fs::path file = profile_ / "answers.json";
+    write_json(file, browser_->evaluate("answers()"));
+    const StudyKey key = read_study_key(sample_->study() / "private/key.json");
+    EXPECT_EQ(analysis::read_answers({file}, key)[0].answers[0].values, (Json{{"human", nullptr}}));
+    touch("input[name=\"human.0\"]", 2, "click()");
+    EXPECT_EQ(sent(), Json::array({nullptr})) << "the other one is asked for";
+    touch("input[name=\"human.1\"]", 4, "click()");
+    EXPECT_EQ(sent(), Json::array({nullptr, {3, 5}}));
+}
+
 // The folder that CHIRONOMIA_JSPSYCH names holds jspsych.js and the others, as the note of the export lists
 // them.
 class JspsychPage : public ::testing::TestWithParam<SampleStudy> {
