@@ -10,6 +10,7 @@
 #include "core/files/json_value.h"
 #include "core/text.h"
 #include "study/record/answer_values.h"
+#include "study/record/link_parameters.h"
 
 namespace chironomia::study::analysis {
 namespace {
@@ -145,7 +146,9 @@ std::string known_as(const JsonValue& value) {
     const auto arrived = value.find("arrived_with");
     if (!arrived || !arrived->json().is_object()) return "";
     const auto found = arrived->json().find("PROLIFIC_PID");
-    return found != arrived->json().end() && found->is_string() ? found->get<std::string>() : "";
+    if (found == arrived->json().end() || !found->is_string() || is_unfilled(found->get<std::string>()))
+        return "";
+    return found->get<std::string>();
 }
 
 void refuse_twice(std::map<std::string, std::string>& seen, const std::string& name, const std::string& what,

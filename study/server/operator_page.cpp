@@ -6,6 +6,7 @@
 
 #include "core/text.h"
 #include "study/html/html.h"
+#include "study/record/link_parameters.h"
 #include "study/server/clock.h"
 
 namespace chironomia::study::server {
@@ -159,6 +160,9 @@ Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t n
     Json people = json_of(all);
     people["withdrawn"] = store.count_withdrawals();
     people["wanted"] = study.wanted ? Json(*study.wanted) : Json(nullptr);
+    const auto unfilled = std::ranges::count_if(participants, [](const Participant& participant) {
+        return has_unfilled(Json::parse(participant.arrived_with));
+    });
     const std::size_t taken = count_taken(store.loads(study.sheets.size(), now - timeout));
     Json sheets = Json::array(), pairs = Json::array(), places = Json::array();
     for (std::size_t i = 0; i < by_sheet.size(); ++i) {
@@ -175,6 +179,7 @@ Json study_progress(const ServedStudy& study, AnswerStore& store, std::int64_t n
     return {{"time", utc_text(now)},
             {"participants", std::move(people)},
             {"full", study.wanted && taken >= *study.wanted},
+            {"unfilled_links", unfilled},
             {"answers", store.count_answers()},
             {"sheets", std::move(sheets)},
             {"pairs", std::move(pairs)},
@@ -222,6 +227,12 @@ std::string operator_page(const ServedStudy& study, const Json& progress) {
         body +=
             "<p>Newcomers are sent away: as many as are wanted have finished or are at work. To let more come, start "
             "the server again with --participants N, the number of all.</p>\n";
+    if (const auto unfilled = progress.at("unfilled_links").get<std::size_t>(); unfilled > 0) {
+        body += format(
+            "<p role=\"alert\"><strong>Participants who came by a link that the panel had not filled in, such as "
+            "{{{{%PROLIFIC_PID%}}}}: {}. Their names are drawn; correct the link.</strong></p>\n",
+            unfilled);
+    }
     body += note_of_those_sent_away(progress.at("sent_away"));
     body += table("Participants", all, Json::array({progress.at("participants")}));
     if (!progress.at("pairs").empty()) {

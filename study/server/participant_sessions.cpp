@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "study/build/participant_pages.h"
+#include "study/record/link_parameters.h"
 #include "study/server/answer_validation.h"
 #include "study/server/clock.h"
 
@@ -67,19 +68,25 @@ Json parameters_of(const Json& body) {
     return body.contains("arrived_with") ? body["arrived_with"] : Json(Json::object());
 }
 
+// The text at a key that names somebody, or "" if there is none.
+std::string name_at(const Json& object, const char* key) {
+    const std::string name = text_at(object, key);
+    return is_unfilled(name) ? "" : name;
+}
+
 // By what somebody is known who comes back, perhaps in another browser.
 std::optional<std::string> identity_of(const Json& body) {
-    const std::string prolific = text_at(parameters_of(body), "PROLIFIC_PID");
+    const std::string prolific = name_at(parameters_of(body), "PROLIFIC_PID");
     if (!prolific.empty()) return "prolific:" + prolific;
-    const std::string name = text_at(body, "participant");
+    const std::string name = name_at(body, "participant");
     if (!name.empty()) return "name:" + name;
     return std::nullopt;
 }
 
 // A link with a PROLIFIC_PID may give all participants of a wave one `p`.
 std::string name_of(const Json& body) {
-    const std::string prolific = text_at(parameters_of(body), "PROLIFIC_PID");
-    return prolific.empty() ? text_at(body, "participant") : prolific;
+    const std::string prolific = name_at(parameters_of(body), "PROLIFIC_PID");
+    return prolific.empty() ? name_at(body, "participant") : prolific;
 }
 
 // A browser may keep the session of somebody who used it before: an identity counts more.

@@ -8,6 +8,7 @@
 #include "core/text.h"
 #include "study/build/pages.h"
 #include "study/build/participant_pages.h"
+#include "study/record/link_parameters.h"
 #include "study/server/answer_validation.h"
 #include "study/server/answers_file.h"
 #include "study/server/clock.h"
@@ -158,6 +159,15 @@ void Site::note_proxy(const HttpRequest& request) {
     });
 }
 
+void Site::note_unfilled_link(const Json& body) {
+    if (!has_unfilled(body.value("arrived_with", Json::object()))) return;
+    std::call_once(unfilled_link_noted_, [&] {
+        options_.complain(
+            "note: somebody came by a link that the panel had not filled in, such as {{%PROLIFIC_PID%}}; their name is "
+            "drawn; correct the link");
+    });
+}
+
 void Site::note_failure(const std::string& why) {
     const std::int64_t now = steady_milliseconds();
     const std::lock_guard lock(mutex_);
@@ -209,6 +219,7 @@ Reply Site::begin(const HttpRequest& request, const Json& body) {
     };
     const Arrival arrival = {.now = now(), .session = draw_secret(), .admits = admits};
     queue_.run([&](AnswerStore& store) { reply = sessions_.begin(store, body, arrival); });
+    if (reply.status == 200) note_unfilled_link(body);
     return reply;
 }
 

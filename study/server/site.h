@@ -64,6 +64,7 @@ class Site {
     bool is_operator(const HttpRequest& request) const;
     std::string cookie() const;
     void note_proxy(const HttpRequest& request);
+    void note_unfilled_link(const Json& body);
 
     const ServedStudy& study_;
     CommitQueue& queue_;
@@ -80,6 +81,7 @@ class Site {
     RateLimit login_limit_;
     RateLimit newcomer_limit_;
     std::once_flag proxy_noted_;
+    std::once_flag unfilled_link_noted_;
     std::mutex copies_mutex_;  // one withdrawal at a time changes the copies of answers
     std::mutex mutex_;         // guards failures_, incidents_ and complained_
     Failures failures_;

@@ -21,9 +21,15 @@ function arrivedWith(query) {
 
 const kNameKey = `chironomia ${study.study} participant`;
 
-// Prolific's parameter or ?p=ID names the participant.
+// A panel should have filled in {{%PROLIFIC_PID%}} (Prolific) or ${e://Field/PROLIFIC_PID} (Qualtrics).
+function isUnfilled(text) {
+  return text.startsWith('{{%') || text.startsWith('${e://');
+}
+
+// Prolific's parameter or ?p=ID names the participant. Where Prolific's is not filled in, `p` may be one that many share.
 function nameGiven(query) {
-  return plain(query.get('PROLIFIC_PID'), 100) || plain(query.get('p'), 100);
+  const name = plain(query.get('PROLIFIC_PID'), 100) || plain(query.get('p'), 100);
+  return isUnfilled(name) ? '' : name;
 }
 
 // Without a name in the link the browser draws one, and keeps it.

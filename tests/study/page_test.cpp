@@ -374,6 +374,18 @@ TEST_F(StudyPage, AsksTheQuestionnaireAndSendsParticipantsOn) {
     EXPECT_EQ(text_of("redirect"), "");
 }
 
+// A link that was pasted without the panel filling it in: all who come by it would be one.
+TEST_F(StudyPage, TakesAMarkThatWasNotFilledInForNoName) {
+    for (const char* query :
+         {"?p=wave1&PROLIFIC_PID={{%PROLIFIC_PID%}}", "?PROLIFIC_PID=%7B%7B%25PROLIFIC_PID%25%7D%7D",
+          "?PROLIFIC_PID=${e://Field/PROLIFIC_PID}", "?p=${e://Field/ResponseID}"}) {
+        open(query);
+        EXPECT_THAT(evaluate("state.sent.participant").get<std::string>(),
+                    ::testing::MatchesRegex("[0-9a-f]{12}"))
+            << query;
+    }
+}
+
 TEST_F(StudyPage, SpreadsNamesOverTheSheets) {
     study_["sheets"] = {study_["sheets"][0], study_["sheets"][1], study_["sheets"][0], study_["sheets"][1]};
     open("?p=ann");

@@ -8,9 +8,16 @@ const jsPsych = initJsPsych({show_progress_bar: true, on_finish: finish});
 
 // ---- What is kept
 
+// A panel should have filled in {{%PROLIFIC_PID%}} (Prolific) or ${e://Field/PROLIFIC_PID} (Qualtrics); a link that was
+// pasted names nobody.
+function nameGiven() {
+  const name = (query.get('PROLIFIC_PID') || query.get('p') || '').trim();
+  return name.startsWith('{{%') || name.startsWith('${e://') ? '' : name;
+}
+
 // ?sheet=N gives a sheet, counted from 0 and after the last one from the first again, as in the study's own page; without
 // it, or if it is no number, one is drawn.
-const named = query.get('PROLIFIC_PID') || query.get('p') || '';
+const named = nameGiven();
 const sheet = query.get('sheet') || '';
 const kKey = `chironomia ${study.study} jspsych ${named} ${sheet}`;
 

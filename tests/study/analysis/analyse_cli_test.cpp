@@ -68,6 +68,19 @@ TEST(AnalyseCli, ReplacesSimulatedAnswersAlone) {
                 HasSubstr("answers.json: is there already and holds no answers; name a new file"));
 }
 
+// Links that a panel has not filled in make nobody one with another.
+TEST(AnalyseCli, TakesAMarkThatWasNotFilledInForNoName) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    Json answers = read_json(folder / "answers.json");
+    for (Json& one : answers) one["arrived_with"] = {{"PROLIFIC_PID", "{{%PROLIFIC_PID%}}"}};
+    write_json(folder / "answers.json", answers);
+    const Outcome outcome = run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
+                                            (folder / "answers.json").string(), "--samples", "200"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("12 participants: "));
+}
+
 // simulated-1 has sheet 0, whose pages 6 and 7 are checks; without the answers to them it fails none.
 TEST(AnalyseCli, CountsNobodyWithoutTheAnswersToAttentionChecks) {
     const TemporaryFolder folder;

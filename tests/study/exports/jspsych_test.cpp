@@ -197,6 +197,15 @@ TEST_F(JspsychForm, LeavesRatingsOpenOrAsksForAll) {
     EXPECT_EQ(sent(), Json::array({nullptr, {3, 5}}));
 }
 
+// A link that was pasted without the panel filling it in: all who come by it would be one.
+TEST_F(JspsychForm, TakesAMarkThatWasNotFilledInForNoName) {
+    for (const char* query : {"?sheet=0&p=wave1&PROLIFIC_PID={{%PROLIFIC_PID%}}",
+                              "?sheet=0&PROLIFIC_PID=${e://Field/PROLIFIC_PID}"}) {
+        open("pair", 1, query);
+        EXPECT_EQ(browser_->evaluate("kept.participant"), "xxxxxxxxxxxx") << query;
+    }
+}
+
 // The folder that CHIRONOMIA_JSPSYCH names holds jspsych.js and the others, as the note of the export lists
 // them.
 class JspsychPage : public ::testing::TestWithParam<SampleStudy> {

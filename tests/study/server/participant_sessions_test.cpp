@@ -118,6 +118,20 @@ TEST(ParticipantSessions, NamesThoseOfOneWaveByTheirProlificIds) {
     EXPECT_EQ(sessions.store().participants()[1].name, "60");
 }
 
+// A link that was pasted without the panel filling it in: all who come by it would be one.
+TEST(ParticipantSessions, KnowsNobodyByAMarkThatWasNotFilledIn) {
+    TestSessions sessions;
+    for (const char* mark : {"{{%PROLIFIC_PID%}}", "${e://Field/PROLIFIC_PID}"}) {
+        sessions.begin({{"participant", mark}, {"arrived_with", {{"PROLIFIC_PID", mark}}}});
+        sessions.begin(
+            {{"participant", "a1b2" + std::string(mark)}, {"arrived_with", {{"PROLIFIC_PID", mark}}}});
+    }
+    std::vector<std::string> names;
+    for (const Participant& participant : sessions.store().participants()) names.push_back(participant.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"p-1", "a1b2{{%PROLIFIC_PID%}}", "p-3",
+                                               "a1b2${e://Field/PROLIFIC_PID}"}));
+}
+
 // The analysis refuses two participants of one name.
 TEST(ParticipantSessions, GivesNoTwoParticipantsOneName) {
     TestSessions sessions;

@@ -139,6 +139,35 @@ TEST(ServeCli, LetsASecondWaveTakePart) {
     EXPECT_EQ(outcome.err, "");
 }
 
+// Two who come by a link that was pasted as the panel shows it, before it fills it in.
+TEST(ServeCli, SaysThatALinkWasNotFilledIn) {
+    const TemporaryFolder folder;
+    write_sample_study(folder.path(), {});
+    setenv("CHIRONOMIA_OPERATOR_TOKEN", "0123456789abcdef", 1);
+    RunningChironomia server({"study", "serve", folder.path().string(), "--port", "0"});
+    unsetenv("CHIRONOMIA_OPERATOR_TOKEN");
+    const int port = port_in(server.wait_for_out("operator"));
+    for (const char* name : {"a1b2", "c3d4"}) {
+        const Json begun =
+            testing::RawClient(port)
+                .post("/api/begin",
+                      {{"participant", name}, {"arrived_with", {{"PROLIFIC_PID", "{{%PROLIFIC_PID%}}"}}}})
+                .value()
+                .json();
+        EXPECT_EQ(begun["answered"], 0);
+    }
+    const std::string operator_page =
+        testing::RawClient(port).get("/operator", "Authorization: Bearer 0123456789abcdef\r\n").value().body;
+    EXPECT_THAT(operator_page,
+                HasSubstr("Participants who came by a link that the panel had not filled in, such as "
+                          "{{%PROLIFIC_PID%}}: 2. Their names are drawn; correct the link."));
+    EXPECT_EQ(
+        server.end(SIGTERM).err,
+        "chironomia study serve: note: somebody came by a link that the panel had not filled in, such as "
+        "{{%PROLIFIC_PID%}}; their name is drawn; correct the link\n")
+        << "once";
+}
+
 TEST(ServeCli, RefusesASecondServer) {
     const TemporaryFolder folder;
     write_sample_study(folder.path(), {});
