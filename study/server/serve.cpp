@@ -84,11 +84,27 @@ std::string token_for(const ServeOptions& options) {
     return token;
 }
 
+// A code of the plan belongs to the plan's link.
+void note_code_left_out(const ServeOptions& options, const std::string& option, const std::string& code) {
+    if (code.empty()) return;
+    options.complain(
+        format("note: {} replaces the link of the plan, so its code \"{}\" is not shown", option, code));
+}
+
 ServedStudy study_for(const ServeOptions& options) {
     ServedStudy study = read_served_study(options.study);
+    Completion& completion = study.completion;
     if (options.participants) study.wanted = options.participants;
-    if (!options.completion_url.empty()) study.completion.url = options.completion_url;
-    if (!options.failed_url.empty()) study.completion.failed_url = options.failed_url;
+    if (!options.completion_url.empty() && options.completion_url != completion.url) {
+        note_code_left_out(options, "--completion-url", completion.code);
+        completion.url = options.completion_url;
+        completion.code.clear();
+    }
+    if (!options.failed_url.empty() && options.failed_url != completion.failed_url) {
+        note_code_left_out(options, "--failed-url", completion.failed_code);
+        completion.failed_url = options.failed_url;
+        completion.failed_code.clear();
+    }
     return study;
 }
 

@@ -27,7 +27,7 @@ struct ServeOptions {
     std::size_t connections = 32;             // requests of a client under way at once
     bool behind_proxy = false;                // a client's address is the last of X-Forwarded-For
     std::optional<std::size_t> participants;  // that are wanted in all; none: as the plan says
-    std::string completion_url;               // empty: as the plan says
+    std::string completion_url;               // shown without a code; empty: as the plan says
     std::string failed_url;                   // the same, of those who failed attention checks
     Clocks clocks{};
     std::function<void(const std::string&)> complain = [](const std::string&) {};  // to the operator

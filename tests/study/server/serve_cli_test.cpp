@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "study/record/study_folder.h"
 #include "study/server/database.h"
+#include "study/server/served_study.h"
 #include "tests/study/process.h"
 #include "tests/study/raw_client.h"
 #include "tests/study/served_sample.h"
@@ -137,6 +138,39 @@ TEST(ServeCli, LetsASecondWaveTakePart) {
     EXPECT_EQ(begin(port, "ada").json()["pages"], first["pages"]) << "who came before goes on";
     const Outcome outcome = server.end(SIGTERM);
     EXPECT_EQ(outcome.err, "");
+}
+
+// Other links have other codes: those of the plan are not shown with them.
+TEST(ServeCli, ShowsNoCodeOfThePlanWithAnotherLink) {
+    const TemporaryFolder folder;
+    write_sample_study(folder.path(), {.trials = 1, .checks = 1, .sheets = 1},
+                       {{"completion",
+                         {{"url", "https://example.org/1"},
+                          {"code", "WAVE1"},
+                          {"failed_url", "https://example.org/f1"},
+                          {"failed_code", "FAILED1"}}}});
+    const ServedStudy study = read_served_study(folder.path());
+    RunningChironomia server({"study", "serve", folder.path().string(), "--port", "0", "--completion-url",
+                              "https://example.org/2", "--failed-url", "https://example.org/f2"});
+    const int port = port_in(server.wait_for_out("operator"));
+    // Where somebody ends whose answer to the check is that.
+    const auto end_of = [&](const std::string& name, int value) -> Json {
+        testing::RawClient client(port);
+        const Json session = client.post("/api/begin", {{"participant", name}}).value().json()["session"];
+        for (std::size_t number = 0; number < 2; ++number) {
+            Json entry = testing::sample_entry(study.pages, study.sheets[0][number], "why");
+            entry["values"] = {{"realism", value}, {"human", {7, 1}}};
+            client.post("/api/answer", {{"session", session}, {"number", number}, {"answer", entry}});
+        }
+        return client.post("/api/finish", {{"session", session}}).value().json()["completion"];
+    };
+    EXPECT_EQ(end_of("ada", 1), (Json{{"url", "https://example.org/2"}, {"code", nullptr}}));
+    EXPECT_EQ(end_of("eve", 5), (Json{{"url", "https://example.org/f2"}, {"code", nullptr}}));
+    EXPECT_EQ(server.end(SIGTERM).err,
+              "chironomia study serve: note: --completion-url replaces the link of the plan, so its code "
+              "\"WAVE1\" is not shown\n"
+              "chironomia study serve: note: --failed-url replaces the link of the plan, so its code "
+              "\"FAILED1\" is not shown\n");
 }
 
 // Two who come by a link that was pasted as the panel shows it, before it fills it in.
