@@ -187,7 +187,7 @@ Json json_of(const Analysis& analysis, const Results& results) {
 
 // The files are all as the first one is: the readers refuse others.
 Dataset dataset_of_study(const std::vector<fs::path>& files, const StudyKey& key, const StudyPages& pages) {
-    if (!files.empty() && files.front().extension() == ".csv") return read_battles(files, key, pages);
+    if (!files.empty() && extension_of(files.front()) == ".csv") return read_battles(files, key, pages);
     if (files.empty() || !is_of_hemvip(files.front()))
         return join_answers(key, pages, read_answers(files, key));
     const HemvipAnswers read = read_hemvip_answers(files, key, pages);
@@ -212,7 +212,7 @@ bool Analysis::rules_agree() const {
 }
 
 Analysis analyse(const AnalysisJob& job) {
-    const std::vector<fs::path> files = files_of_answers(job.answers);
+    const auto [files, unread] = files_of_answers(job.answers);
     Analysis analysis{.resampling = job.resampling};
     if (job.study) {
         const StudyFolder folder{*job.study};
@@ -226,6 +226,7 @@ Analysis analyse(const AnalysisJob& job) {
     }
     if (analysis.title.empty()) analysis.title = analysis.data.study;
     if (analysis.data.raters.empty()) throw Error(no_answers(job));
+    analysis.data.notes.insert(analysis.data.notes.end(), unread.begin(), unread.end());
     for (const fs::path& file : files)
         analysis.inputs.push_back({file.filename().string(), sha256_of_file(file)});
     analysis.strict = results_by(analysis.data, Strictness::strict, job.resampling);

@@ -202,6 +202,54 @@ std::set<const Json*> beginnings_in(const std::vector<Json>& files) {
     return beginnings;
 }
 
+struct AnswersFolder {
+    std::vector<fs::path> files;       // of answers
+    std::vector<std::string> folders;  // names
+    std::vector<std::string> others;   // names
+};
+
+AnswersFolder look_into(const fs::path& folder) {
+    AnswersFolder inside;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string extension = extension_of(entry.path());
+        const std::string name = entry.path().filename().string();
+        if (entry.is_directory()) {
+            inside.folders.push_back(name);
+        } else if (entry.is_regular_file() && (extension == ".json" || extension == ".csv")) {
+            inside.files.push_back(entry.path());
+        } else {
+            inside.others.push_back(name);
+        }
+    }
+    std::sort(inside.files.begin(), inside.files.end());
+    std::sort(inside.folders.begin(), inside.folders.end());
+    std::sort(inside.others.begin(), inside.others.end());
+    return inside;
+}
+
+// "a", "b", "c" and 7 more
+std::string some_of(const std::vector<std::string>& names) {
+    constexpr std::size_t kMostNamed = 5;
+    std::vector<std::string> quoted;
+    for (std::size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
+        quoted.push_back(format("\"{}\"", names[i]));
+    const std::string text = join(quoted, ", ");
+    return names.size() <= kMostNamed ? text : format("{} and {} more", text, names.size() - kMostNamed);
+}
+
+std::vector<std::string> notes_on(const AnswersFolder& inside, const fs::path& folder) {
+    std::vector<std::string> notes;
+    // Results are the same wherever the folder lies.
+    const std::string name = fs::weakly_canonical(folder).filename().string();
+    if (!inside.folders.empty())
+        notes.push_back(
+            format("{}: holds folders, which are not looked into: {}.", name, some_of(inside.folders)));
+    if (!inside.others.empty())
+        notes.push_back(format("{}: holds files that are no .json or .csv, which are not read: {}.", name,
+                               some_of(inside.others)));
+    return notes;
+}
+
 void refuse_mixture(const std::vector<Respondent>& participants) {
     const auto simulated = std::count_if(participants.begin(), participants.end(),
                                          [](const Respondent& each) { return each.simulated; });
@@ -213,33 +261,32 @@ void refuse_mixture(const std::vector<Respondent>& participants) {
 
 }  // namespace
 
-std::vector<fs::path> files_of_answers(const std::vector<fs::path>& paths) {
-    std::vector<fs::path> files;
+std::string extension_of(const fs::path& file) {
+    return to_lower(file.extension().string());
+}
+
+AnswerFiles files_of_answers(const std::vector<fs::path>& paths) {
+    AnswerFiles answers;
     for (const fs::path& path : paths) {
         if (!fs::exists(path)) throw Error(format("{}: there is no such file or folder", path.string()));
         if (!fs::is_directory(path)) {
-            files.push_back(path);
+            answers.files.push_back(path);
             continue;
         }
-        std::vector<fs::path> inside;
-        for (const auto& entry : fs::directory_iterator(path)) {
-            const fs::path extension = entry.path().extension();
-            if (entry.is_regular_file() && (extension == ".json" || extension == ".csv"))
-                inside.push_back(entry.path());
-        }
-        if (inside.empty())
+        const AnswersFolder inside = look_into(path);
+        if (inside.files.empty())
             throw Error(
                 format("{}: holds no .json and no .csv file; give the folder of the answers", path.string()));
-        std::sort(inside.begin(), inside.end());
-        files.insert(files.end(), inside.begin(), inside.end());
+        answers.files.insert(answers.files.end(), inside.files.begin(), inside.files.end());
+        for (std::string& note : notes_on(inside, path)) answers.notes.push_back(std::move(note));
     }
-    return files;
+    return answers;
 }
 
 void refuse_folder_of_answers(const fs::path& results) {
     if (!fs::is_directory(results)) return;
     for (const auto& entry : fs::directory_iterator(results)) {
-        if (!entry.is_regular_file() || entry.path().extension() != ".json") continue;
+        if (!entry.is_regular_file() || extension_of(entry.path()) != ".json") continue;
         // So begin those of this program and of HEMVIP, damaged ones too.
         const std::string text = read_text(entry.path());
         if (text.find(kFormat) == std::string::npos && text.find("\"userId\"") == std::string::npos) continue;

@@ -22,9 +22,17 @@ struct Respondent {
     std::vector<PageAnswer> answers;
 };
 
+// What a file's name ends with, in small letters: ".json".
+std::string extension_of(const std::filesystem::path& file);
+
+struct AnswerFiles {
+    std::vector<std::filesystem::path> files;
+    std::vector<std::string> notes;  // what else lies in the folders, which is not read
+};
+
 // The files that `paths` name: themselves, or all .json and .csv files in a folder, by name.
 // Throws Error if one is missing or a folder has none.
-std::vector<std::filesystem::path> files_of_answers(const std::vector<std::filesystem::path>& paths);
+AnswerFiles files_of_answers(const std::vector<std::filesystem::path>& paths);
 
 // Throws Error if a folder for results holds answers: tables beside them would be read as answers later.
 void refuse_folder_of_answers(const std::filesystem::path& results);

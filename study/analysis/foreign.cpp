@@ -11,6 +11,7 @@
 #include "core/files/json_value.h"
 #include "core/text.h"
 #include "core/utf8.h"
+#include "study/analysis/answers.h"
 #include "study/analysis/hemvip_answers.h"
 #include "study/analysis/simulated_rater.h"
 #include "study/record/answer_values.h"
@@ -445,11 +446,11 @@ Dataset read_foreign_answers(const std::vector<fs::path>& files) {
     Dataset data{.study = "answers of another front end"};
     std::set<std::string> kinds;
     for (const fs::path& file : files) {
-        kinds.insert(file.extension().string());
+        kinds.insert(extension_of(file));
         if (kinds.size() > 1)
             throw Error(
                 format("{}: is of another kind than the files before it; analyse them apart", file.string()));
-        if (file.extension() == ".csv") {
+        if (extension_of(file) == ".csv") {
             read_lines(file, [&](const Battle& battle) { add_battle(data, battle, file.string()); });
         } else {
             read_hemvip(data, file);
@@ -463,7 +464,7 @@ Dataset read_foreign_answers(const std::vector<fs::path>& files) {
 Dataset read_battles(const std::vector<fs::path>& files, const StudyKey& key, const StudyPages& pages) {
     BattlesOfStudy battles(key, pages, files.front().string());
     for (const fs::path& file : files) {
-        if (file.extension() != ".csv")
+        if (extension_of(file) != ".csv")
             throw Error(
                 format("{}: is of another kind than the files before it; analyse them apart", file.string()));
         read_lines(file, [&](const Battle& battle) { battles.add(battle, file.string()); });

@@ -229,7 +229,8 @@ void add(Uses& uses, const StudyAnalyseCommand& command) {
         uses.reads("--answers", answers);
         std::error_code none;
         if (!fs::is_directory(answers, none)) continue;
-        for (const fs::path& file : analysis::files_of_answers({answers})) uses.reads("--answers", file);
+        for (const fs::path& file : analysis::files_of_answers({answers}).files)
+            uses.reads("--answers", file);
     }
     if (!command.out) return;
     uses.writes("--out", *command.out);

@@ -68,6 +68,28 @@ TEST(AnalyseCli, ReplacesSimulatedAnswersAlone) {
                 HasSubstr("answers.json: is there already and holds no answers; name a new file"));
 }
 
+// Whatever the case of its ending a file is read, and what is not read is named.
+TEST(AnalyseCli, NamesWhatItDoesNotReadOfAFolder) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(rehearse(folder).exit_code, 0);
+    const Json answers = read_json(folder / "answers.json");
+    write_json(folder / "all/1.json", answers[0]);
+    write_json(folder / "all/2.JSON", answers[1]);
+    write_json(folder / "all/second wave/3.json", answers[2]);
+    for (int i = 0; i < 7; ++i) write_json(folder / "all" / format("n{}.txt", i), answers[3]);
+    const Outcome outcome =
+        run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
+                        (folder / "all").string(), "--out", (folder / "out").string(), "--samples", "200"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("\n2 participants: "));
+    EXPECT_THAT(outcome.out,
+                HasSubstr("\nall: holds folders, which are not looked into: \"second wave\".\n"));
+    EXPECT_THAT(outcome.out,
+                HasSubstr("\nall: holds files that are no .json or .csv, which are not read: "
+                          "\"n0.txt\", \"n1.txt\", \"n2.txt\", \"n3.txt\", \"n4.txt\" and 2 more.\n"));
+    EXPECT_THAT(read_json(folder / "out/analysis.json")["notes"].dump(), HasSubstr("second wave"));
+}
+
 // Links that a panel has not filled in make nobody one with another.
 TEST(AnalyseCli, TakesAMarkThatWasNotFilledInForNoName) {
     const TemporaryFolder folder;

@@ -209,7 +209,7 @@ TEST(FilesOfAnswers, AreThoseOfFoldersToo) {
     write_text(folder / "a/1.json", "{}");
     write_text(folder / "a/notes.txt", "");
     write_text(folder / "b.csv", "");
-    EXPECT_THAT(files_of_answers({folder / "a", folder / "b.csv"}),
+    EXPECT_THAT(files_of_answers({folder / "a", folder / "b.csv"}).files,
                 ElementsAre(folder / "a/1.json", folder / "a/2.json", folder / "b.csv"));
     std::filesystem::create_directory(folder / "empty");
     EXPECT_THAT(refusal_of([&] { files_of_answers({folder / "empty"}); }),
