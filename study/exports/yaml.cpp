@@ -1,6 +1,10 @@
 #include "study/exports/yaml.h"
 
 #include <algorithm>
+#include <cstdint>
+
+#include "core/text.h"
+#include "core/utf8.h"
 
 namespace chironomia::study {
 namespace {
@@ -14,9 +18,22 @@ bool is_plain_list(const Json& value) {
     return value.is_array() && std::none_of(value.begin(), value.end(), is_nested);
 }
 
-// Texts in the double quotes of JSON are YAML; what YAML might take for an end of line is escaped.
+// What may not stand in YAML as it is, or ends a line there: DEL, the controls from U+0080 on, the separators U+2028 and
+// U+2029, and the two that are no characters.
+bool is_to_be_escaped(char32_t letter) {
+    return (letter >= 0x7f && letter < 0xa0) || letter == 0x2028 || letter == 0x2029 || letter == 0xfffe ||
+           letter == 0xffff;
+}
+
+// Texts in the double quotes of JSON are YAML. Letters stand there as UTF-8: webMUSHRA's reader takes \u00e9 for two
+// letters, and no reader of YAML takes two surrogates for one.
 std::string scalar(const Json& value) {
-    return value.dump(-1, ' ', true);
+    std::string text;
+    for (const char32_t letter : characters_of(value.dump())) {
+        text += is_to_be_escaped(letter) ? format("\\u{:04x}", static_cast<std::uint32_t>(letter))
+                                         : to_utf8(std::u32string(1, letter));
+    }
+    return text;
 }
 
 std::string lines_of(const Json& value, std::size_t indent) {

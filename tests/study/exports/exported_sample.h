@@ -55,9 +55,11 @@ class ExportedSample {
     // A file of YAML as Debian's Python reads it.
     Json read_yaml(const std::filesystem::path& file) const {
         const std::filesystem::path script = folder_ / "read.py";
-        write_text(
-            script,
-            "import json, sys, yaml\njson.dump(yaml.safe_load(open(sys.argv[1])), open(sys.argv[2], 'w'))\n");
+        write_text(script,
+                   // Of two surrogates, which are no letter, JSON would make one: UTF-8 cannot write them.
+                   "import json, sys, yaml\n"
+                   "value = yaml.safe_load(open(sys.argv[1], encoding='utf-8'))\n"
+                   "json.dump(value, open(sys.argv[2], 'w', encoding='utf-8'), ensure_ascii=False)\n");
         const std::filesystem::path json = folder_ / "read.json";
         const std::string command =
             format("/usr/bin/python3 '{}' '{}' '{}'", script.string(), file.string(), json.string());
