@@ -10,6 +10,14 @@ namespace {
 
 const std::string kQualtrics = "qualtrics";
 
+// Text as HTML that Qualtrics does not take for a tag of its own, such as [[Choices]].
+std::string survey_html(const std::string& text) {
+    std::string html = html_of(text);
+    for (std::size_t at = html.find("[["); at != std::string::npos; at = html.find("[[", at))
+        html.replace(at, 2, "&#91;&#91;");
+    return html;
+}
+
 // In a loop ${lm://Field/N} is column N of the row.
 std::string field(std::size_t column) {
     return format("${{lm://Field/{}}}", column);
@@ -21,7 +29,7 @@ std::string videos_html(const ExportSource& source, const PagePass& pass, std::s
     const bool muted = !pass.sound || !source.study.pages.sound;
     const std::vector<std::string> names = names_of_figures(source.study.pages, figures);
     const auto name_html = [](const std::string& name) {
-        return format("<b style=\"flex:1;text-align:center\">{}</b>", html_of(name));
+        return format("<b style=\"flex:1;text-align:center\">{}</b>", survey_html(name));
     };
     std::string html, shown;
     for (const std::string& name : names) html += name_html(name);
@@ -39,7 +47,9 @@ std::string question_head(const std::string& kind, const std::string& id, const 
 }
 
 std::string list_of(const std::string& name, const std::vector<std::string>& texts) {
-    return format("[[{}]]\n{}\n", name, join(texts, "\n"));
+    std::string lines;
+    for (const std::string& text : texts) lines += survey_html(text) + "\n";
+    return format("[[{}]]\n{}", name, lines);
 }
 
 std::vector<std::string> points_of(const Question& question) {
@@ -86,12 +96,12 @@ std::string reasons_text(const Question& question) {
     std::vector<std::string> options = texts_of(question.reasons->options);
     if (!question.reasons->other.empty()) options.push_back(question.reasons->other);
     return question_head("MC:MultipleAnswer:Vertical", question.id + "_reasons",
-                         html_of(question.reasons->text)) +
+                         survey_html(question.reasons->text)) +
            list_of("Choices", options);
 }
 
 std::string question_text(const ExportSource& source, const Question& question, std::size_t places) {
-    const std::string html = html_of(question.text);
+    const std::string html = survey_html(question.text);
     switch (question.kind) {
         case QuestionKind::preference:
             return question_head("MC:SingleAnswer:Horizontal", question.id, html) +
@@ -141,9 +151,9 @@ std::string survey_text(const ExportSource& source) {
     const StudyPage& first = study.pages.front();
     std::string text = "[[AdvancedFormat]]\n\n";
     for (const char* name : {"PROLIFIC_PID", "STUDY_ID", "SESSION_ID"}) text += format("[[ED:{}]]\n", name);
-    text += "\n[[Block:Beginning]]\n" + question_head("DB", "instructions", html_of(study.instructions));
+    text += "\n[[Block:Beginning]]\n" + question_head("DB", "instructions", survey_html(study.instructions));
     if (!study.consent.empty()) {
-        text += question_head("MC:SingleAnswer:Vertical", "consent", html_of(study.consent)) +
+        text += question_head("MC:SingleAnswer:Vertical", "consent", survey_html(study.consent)) +
                 list_of("Choices",
                         {study.agreement.empty() ? "I agree" : study.agreement, say(source, kDecline)});
     }
@@ -213,6 +223,11 @@ Export make_qualtrics(const ExportSource& source) {
         "import survey.txt, copy the block \"Trials\" for each sheet, paste its CSV into Loop & Merge, and "
         "put the blocks below a Randomizer that shows 1 of them with Evenly Present Elements",
         "Qualtrics does not judge attention checks, nor wait for the end of videos"};
+    if (!source.study.pages.consent.empty()) {
+        made.notes.push_back(
+            "a text file for Qualtrics cannot branch: add a branch after the first block, where \"consent\" is its "
+            "second choice, to the end of the survey; else those who do not agree go on to the trials");
+    }
     note_words(made, source);
     note_captions(made, source);
     return made;

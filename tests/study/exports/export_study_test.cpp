@@ -358,6 +358,34 @@ TEST(Qualtrics, RefusesWhatItCannotShow) {
     EXPECT_THAT(mixed.refusal(ExportForm::qualtrics, kUrl), HasSubstr("all with the same questions"));
 }
 
+// A text file cannot send those who do not agree to the end.
+TEST(Qualtrics, AsksForABranchAfterTheConsent) {
+    ExportedSample sample({});
+    const ::testing::Matcher<std::string> branch =
+        HasSubstr("add a branch after the first block, where \"consent\" is its second choice, to the end");
+    EXPECT_THAT(sample.write(ExportForm::qualtrics, kUrl).notes, ::testing::Contains(branch));
+    ExportedSample without({});
+    without.change("public/pages.json", [](Json& pages) { pages["consent"] = nullptr; });
+    EXPECT_THAT(without.write(ExportForm::qualtrics, kUrl).notes, Not(::testing::Contains(branch)));
+}
+
+// What a text has in common with a tag, or with HTML, is shown as it is.
+TEST(Qualtrics, TakesNoTextForATag) {
+    ExportedSample sample({});
+    sample.change("public/pages.json", [](Json& pages) {
+        pages["questions"][0]["text"] = "Which? [[Choices]]";
+        pages["questions"][0]["answers"] = {"<left", "[[Question:MC]]", "a & b", "[[[", "right"};
+        pages["consent"]["text"] = "Kept.\n[[Block:End]]";
+        pages["questionnaire"][0]["text"] = "[[[PageBreak]]";
+    });
+    sample.write(ExportForm::qualtrics, kUrl);
+    const std::string survey = read_text(sample.open("survey.txt"));
+    EXPECT_THAT(survey, HasSubstr("[[ID:realism]]\nWhich? &#91;&#91;Choices]]\n[[Choices]]\n&lt;left\n"
+                                  "&#91;&#91;Question:MC]]\na &amp; b\n&#91;&#91;[\nright\n[[Question:"));
+    EXPECT_THAT(survey, HasSubstr("[[ID:consent]]\nKept.<br>&#91;&#91;Block:End]]\n[[Choices]]\n"));
+    EXPECT_THAT(survey, HasSubstr("[[ID:age]]\n&#91;&#91;[PageBreak]]\n"));
+}
+
 // Words that the plan gives are there; the others are English, and a note says so.
 TEST(Qualtrics, AsksInTheWordsOfTheStudy) {
     ExportedSample sample({});
