@@ -167,17 +167,17 @@ std::string default_agreement(const std::string& language) {
                language);
 }
 
-const std::vector<std::string>& page_text_names() {
-    static const std::vector<std::string> names = [] {
+const std::vector<PageText>& page_texts() {
+    static const std::vector<PageText> texts = [] {
         const std::string source = read_text(find_asset("study/web/texts.js"));
-        static const std::regex name(R"(\n    '?([\w.]+)'?: ')");
-        std::vector<std::string> found;
+        static const std::regex line(R"(\n    '?([\w.]+)'?: '([^'\n]*)')");
+        std::vector<PageText> found;
         const auto end = source.begin() + static_cast<std::ptrdiff_t>(source.find("\n  },"));
-        for (std::sregex_iterator match(source.begin(), end, name), none; match != none; ++match)
-            found.push_back((*match)[1]);
+        for (std::sregex_iterator match(source.begin(), end, line), none; match != none; ++match)
+            found.push_back({.name = (*match)[1], .english = (*match)[2]});
         return found;
     }();
-    return names;
+    return texts;
 }
 
 }  // namespace chironomia::study

@@ -23,8 +23,12 @@ std::string default_instruction_of_video(const std::string& language);
 // Of the button under a consent, as the page itself says it.
 std::string default_agreement(const std::string& language);
 
-// The names of the texts of the page itself (study/web/texts.js), which "texts" of a plan replaces; those that count
-// stand there as "pages.one" and "pages.other".
-const std::vector<std::string>& page_text_names();
+// A text of the page itself (study/web/texts.js), which "texts" of a plan replaces. One that counts stands there as
+// "pages.one" and "pages.other".
+struct PageText {
+    std::string name;
+    std::string english;
+};
+const std::vector<PageText>& page_texts();
 
 }  // namespace chironomia::study

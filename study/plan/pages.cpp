@@ -229,8 +229,9 @@ void read_completion(const JsonValue& value, Plan& plan) {
 }
 
 void read_page_texts(const JsonValue& value, Plan& plan) {
-    std::vector<std::string> known = page_text_names();
-    for (const std::string& name : page_text_names()) {
+    std::vector<std::string> known;
+    for (const auto& [name, english] : page_texts()) known.push_back(name);
+    for (const auto& [name, english] : page_texts()) {
         if (!name.ends_with(".other")) continue;
         for (const char* form : {"zero", "two", "few", "many"})  // of other languages, by the CLDR
             known.push_back(name.substr(0, name.size() - 5) + form);

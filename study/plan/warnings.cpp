@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <regex>
+#include <set>
+#include <string>
 
 #include "core/text.h"
 #include "study/plan/default_texts.h"
@@ -32,7 +35,7 @@ void warn_of_same_motions(const Plan& plan, std::vector<std::string>& warnings) 
 void warn_of_english_texts(const Plan& plan, std::vector<std::string>& warnings) {
     if (is_bundled(plan.texts.language)) return;
     std::vector<std::string> missing;
-    for (const std::string& name : page_text_names()) {
+    for (const auto& [name, english] : page_texts()) {
         const std::string stem = name.substr(0, name.find('.') + 1);
         const bool is_there = std::ranges::any_of(plan.texts.page.items(), [&](const auto& text) {
             return text.key() == name || (!stem.empty() && text.key().starts_with(stem));
@@ -43,7 +46,41 @@ void warn_of_english_texts(const Plan& plan, std::vector<std::string>& warnings)
     warnings.push_back(
         format("{}: texts: {} of {} texts of the page are left in English, such as \"{}\"; "
                "docs/page.md lists all",
-               plan.file.string(), missing.size(), page_text_names().size(), missing.front()));
+               plan.file.string(), missing.size(), page_texts().size(), missing.front()));
+}
+
+// "{n}" and the like, for which the page puts something.
+std::set<std::string> marks_in(const std::string& text) {
+    static const std::regex mark(R"(\{\w+\})");
+    return {std::sregex_token_iterator(text.begin(), text.end(), mark), std::sregex_token_iterator()};
+}
+
+// What stands for the number may be left out of forms that are about one number alone.
+std::set<std::string> marks_needed(const std::string& name) {
+    const std::string stem = name.substr(0, name.find('.') + 1), form = name.substr(stem.size());
+    std::set<std::string> needed;
+    for (const PageText& text : page_texts()) {
+        if (text.name == name || (!stem.empty() && text.name == stem + "other"))
+            needed = marks_in(text.english);
+        if (text.name == name) break;
+    }
+    if (!stem.empty() && (form == "zero" || form == "one" || form == "two")) needed.erase("{n}");
+    return needed;
+}
+
+void warn_of_lost_marks(const Plan& plan, std::vector<std::string>& warnings) {
+    for (const auto& [name, text] : plan.texts.page.items()) {
+        // One of several paragraphs is a list.
+        const std::set<std::string> there =
+            marks_in(text.is_string() ? text.get<std::string>() : text.dump());
+        for (const std::string& mark : marks_needed(name)) {
+            if (there.contains(mark)) continue;
+            warnings.push_back(format(
+                "{}: texts: \"{}\" has no {}, in whose place the page writes what participants need to know; "
+                "docs/page.md has the English text",
+                plan.file.string(), name, mark));
+        }
+    }
 }
 
 void warn_of_fewer_pages(const Plan& plan, std::vector<std::string>& warnings) {
@@ -93,6 +130,7 @@ std::vector<std::string> plan_warnings(const Plan& plan) {
     std::vector<std::string> warnings;
     warn_of_same_motions(plan, warnings);
     warn_of_english_texts(plan, warnings);
+    warn_of_lost_marks(plan, warnings);
     warn_of_fewer_pages(plan, warnings);
     warn_of_scores_of_pages(plan, warnings);
     warn_of_rules_without_effect(plan, warnings);

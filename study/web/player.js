@@ -424,7 +424,7 @@ function offerData() {
 // ---- Begin
 
 function speak() {
-  const rightToLeft = ['ar', 'fa', 'he', 'ur'].includes(study.language.split('-')[0]);
+  const rightToLeft = ['ar', 'fa', 'he', 'ur'].includes(study.language.split('-')[0].toLowerCase());
   document.documentElement.lang = study.language;
   document.documentElement.dir = rightToLeft ? 'rtl' : 'ltr';
   byId('title').textContent = study.title;

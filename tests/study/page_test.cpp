@@ -386,6 +386,12 @@ TEST_F(StudyPage, TakesAMarkThatWasNotFilledInForNoName) {
     }
 }
 
+TEST_F(StudyPage, IsLaidOutFromRightToLeftHoweverTheLanguageIsSpelled) {
+    study_["language"] = "AR-eg";
+    open();
+    EXPECT_EQ(evaluate("document.documentElement.dir"), "rtl");
+}
+
 TEST_F(StudyPage, SpreadsNamesOverTheSheets) {
     study_["sheets"] = {study_["sheets"][0], study_["sheets"][1], study_["sheets"][0], study_["sheets"][1]};
     open("?p=ann");

@@ -572,6 +572,20 @@ TEST_F(StudyPlan, WarnsOfTextsInEnglishAndOfConditionsThatAreTheSame) {
                     "\"ours\" and \"baseline\" show the same in 1 of 2 clips, such as ours/c2.bvh")));
 }
 
+// One form may be about one number alone, and a list of paragraphs is one text.
+TEST_F(StudyPlan, WarnsOfTextsWithoutWhatThePagePutsThere) {
+    const auto warnings = [&](const Json& texts) { return plan_warnings(read_with({{"texts", texts}})); };
+    EXPECT_THAT(warnings({{"page_of", "Page"}, {"pages.few", "A few"}, {"pages.two", "Two pages."}}),
+                ElementsAre(HasSubstr("plan.json: texts: \"page_of\" has no {all}, in whose place"),
+                            HasSubstr("plan.json: texts: \"page_of\" has no {n}, in whose place"),
+                            HasSubstr("\"pages.few\" has no {n}")));
+    EXPECT_THAT(
+        warnings(
+            {{"page_of", "{n}/{all}"}, {"answered.one", "{n} of {all}"}, {"refused", {"No.", "{error}"}}}),
+        IsEmpty());
+    EXPECT_THAT(warnings({{"answered.one", "One."}}), ElementsAre(HasSubstr("has no {all}")));
+}
+
 TEST_F(StudyPlan, WarnsOfScoresThatBelongToNoCondition) {
     const Json slider = {{"id", "hl"}, {"kind", "slider"}, {"text", "How human-like?"}};
     Json each = slider;
