@@ -401,7 +401,7 @@ void join_participant(Dataset& data, const ParticipantSource& of, Uncounted& unc
                            .participant = data.raters.size() - 1,
                            .trial = trial};
         join_one(data, join, uncounted);
-        seconds.push_back(answer.seconds);
+        if (answer.seconds) seconds.push_back(*answer.seconds);
     }
     Rater& rater = data.raters.back();
     rater.failed = failed_checks(of.key, of.pages, of.participant.answers);

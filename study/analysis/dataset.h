@@ -77,10 +77,10 @@ struct AnswerRow {
     std::size_t trial = 0;  // index among the answers of the participant
     PageKind kind = PageKind::trial;
     std::string clip;
-    std::string conditions;       // from left to right as shown, with | between
-    std::string value;            // as given
-    std::string value_of_places;  // with the videos in the order of the key
-    double seconds = 0;
+    std::string conditions;         // from left to right as shown, with | between
+    std::string value;              // as given
+    std::string value_of_places;    // with the videos in the order of the key
+    std::optional<double> seconds;  // on the page; none: unknown
 };
 
 struct Rater {
@@ -89,7 +89,7 @@ struct Rater {
     bool finished = true;
     std::size_t answered = 0;  // passes
     std::size_t skipped = 0;
-    double median_seconds = 0;
+    std::optional<double> median_seconds;  // on a page; none: unknown
     std::vector<FailedCheck> failed;
     Json questionnaire = Json::object();  // {question id: value}; an answer that was left open may be null
 };

@@ -1,7 +1,6 @@
 #include "study/analysis/foreign.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -326,9 +325,7 @@ class BattlesOfStudy {
         return {.page = static_cast<std::size_t>(&page - key_.pages.data()),
                 .order = order,
                 .values = {{judged_.id, answer}},
-                .reasons = Json::object(),
-                .seconds =
-                    std::numeric_limits<double>::infinity()};  // nobody is too fast by a file without times
+                .reasons = Json::object()};
     }
 
     const StudyKey& key_;

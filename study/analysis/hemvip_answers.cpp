@@ -31,7 +31,7 @@ struct HemvipPage {
     bool is_broken = false;
     std::vector<std::string> stimuli;  // from left to right
     std::vector<Json> scores;
-    double seconds = 0;
+    std::optional<double> seconds;  // none: HEMVIP saved no time
 };
 
 std::size_t page_named(const JsonValue& id, const StudyKey& key) {
@@ -179,7 +179,7 @@ HemvipAnswers read_hemvip_answers(const std::vector<fs::path>& files, const Stud
                                   const StudyPages& pages) {
     HemvipAnswers read;
     std::map<std::string, std::string> names;
-    std::size_t broken = 0;
+    std::size_t broken = 0, without_time = 0;
     for (const fs::path& file : files) {
         const Json json = read_json(file);
         const JsonValue whole(json, file.string());
@@ -188,6 +188,8 @@ HemvipAnswers read_hemvip_answers(const std::vector<fs::path>& files, const Stud
             const Respondent& participant = read.participants.back();
             broken +=
                 static_cast<std::size_t>(std::ranges::count(participant.answers, true, &PageAnswer::skipped));
+            without_time += static_cast<std::size_t>(std::ranges::count_if(
+                participant.answers, [](const PageAnswer& answer) { return !answer.seconds; }));
             const auto [before, is_new] = names.emplace(participant.name, file.string());
             if (!is_new)
                 value.at("userId").refuse(
@@ -199,6 +201,10 @@ HemvipAnswers read_hemvip_answers(const std::vector<fs::path>& files, const Stud
         read.notes.push_back(format("{} reported as broken and {} as skipped.",
                                     broken == 1 ? "1 page was" : format("{} pages were", broken),
                                     broken == 1 ? "counts" : "count"));
+    if (without_time > 0 && key.exclusions.fastest_seconds)
+        read.notes.push_back(format("{} no time, so \"fastest_seconds\" does not judge {}.",
+                                    without_time == 1 ? "1 page has" : format("{} pages have", without_time),
+                                    without_time == 1 ? "it" : "them"));
     return read;
 }
 

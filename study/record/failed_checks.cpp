@@ -1,7 +1,6 @@
 #include "study/record/failed_checks.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/text.h"
 #include "study/record/answer_values.h"
@@ -46,10 +45,11 @@ std::optional<FailedCheck> failed_check_of(const StudyKey& key, const StudyPages
         if (auto missed = missed_answer(key, pass, answer)) return missed;
     }
     const std::optional<double>& fastest = key.exclusions.fastest_seconds;
-    if (answer.skipped || !fastest || answer.seconds >= *fastest) return std::nullopt;
+    const std::optional<double>& seconds = answer.seconds;
+    if (answer.skipped || !fastest || !seconds || *seconds >= *fastest) return std::nullopt;
     return FailedCheck{.page = page.token,
                        .expected = format("{:g} s or more", *fastest),
-                       .given = format("{:g} s", answer.seconds),
+                       .given = format("{:g} s", *seconds),
                        .fastest = *fastest};
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ struct PageAnswer {
     Json values;                     // {question id: value}; empty if skipped
     Json reasons;                    // {question id: {"chosen": [ids], "other": text}}
     bool skipped = false;
-    double seconds = 0;
+    std::optional<double> seconds;  // none: unknown
 };
 
 struct FailedCheck {

@@ -183,6 +183,25 @@ TEST_F(HemvipAnswers, CountABrokenPageAsSkipped) {
     EXPECT_EQ(strict()["preferences"][0]["wins"], 3);
 }
 
+// A time that is not known is not 0: nobody was too fast.
+TEST_F(HemvipAnswers, MayHaveNoTime) {
+    export_pairs();
+    sample_->change("private/key.json", [](Json& key) { key["exclusions"]["fastest_seconds"] = 3; });
+    write_hemvip();
+    answer(0, "u1", preferring_ours());
+    const std::filesystem::path file = folder_ / "responses/u1.json";
+    Json saved = read_json(file);
+    for (Json& trial : saved["trials"]) {
+        for (Json& response : trial["responses"]) response.erase("time");
+    }
+    write_json(file, saved);
+    const Outcome outcome = analyse();
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("1 participant: 1 counted by the strict rule"));
+    EXPECT_THAT(outcome.out, HasSubstr("5 pages have no time, so \"fastest_seconds\" does not judge them."));
+    EXPECT_THAT(read_text(folder_ / "out/answers.csv"), HasSubstr(",,counted"));
+}
+
 TEST_F(HemvipAnswers, NeedTheStudy) {
     export_pairs();
     write_hemvip();
