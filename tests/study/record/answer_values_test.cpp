@@ -61,7 +61,7 @@ TEST(FaultOfAnswer, TakesTextsAndNumbers) {
     EXPECT_EQ(fault_of_answer(number({}, {}), "20", 1), "a number is needed");
     EXPECT_EQ(fault_of_answer(number(18, {}), 17, 1), "a number from 18 on is needed");
     EXPECT_EQ(fault_of_answer(number({}, 9), 10, 1), "a number up to 9 is needed");
-    // Whoever types a digit too many must not make sums of squares that are too large.
+    // A digit too many must not make sums of squares that are too large.
     EXPECT_EQ(fault_of_answer(number({}, {}), 1e9, 1), "");
     EXPECT_EQ(fault_of_answer(number({}, {}), 1e160, 1), "a number from -1000000000 to 1000000000 is needed");
     EXPECT_EQ(fault_of_answer(number({}, 9), -1e160, 1), "a number from -1000000000 to 9 is needed");
