@@ -1,7 +1,6 @@
 #include "core/utf8.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace chironomia {
 namespace {

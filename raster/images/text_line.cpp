@@ -37,7 +37,7 @@ std::u32string letters_of(const std::string& line) {
                        "Greek or Cyrillic letters",
                        line, rest.substr(0, character->bytes), static_cast<std::uint32_t>(character->code)));
         }
-        letters.push_back(static_cast<char32_t>(static_cast<std::uint32_t>(character->code)));
+        letters.push_back(character->code);
         rest.remove_prefix(character->bytes);
     }
     return letters;

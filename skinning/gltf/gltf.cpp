@@ -50,7 +50,7 @@ HumanoidGuess guess_humanoid(GltfScene& scene) {
     if (moves_meshes(avatar)) return guess;
     avatar.humanoid = {};
     guess.refusal =
-        "its skeleton moves none of its meshes; skin them to its joints, or export them with their skin";
+        "its skeleton moves none of its meshes (skin them to its joints and export them with their skin)";
     return guess;
 }
 

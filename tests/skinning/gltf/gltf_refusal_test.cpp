@@ -425,7 +425,7 @@ TEST(GltfRefusal, RefusesAMeshThatNoJointMoves) {
     file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
     file.json["nodes"].push_back({{"name", "Body"}, {"mesh", 0}});
     file.write_glb(path);
-    const std::string why = "its skeleton moves none of its meshes; skin them to its joints";
+    const std::string why = "its skeleton moves none of its meshes (skin them to its joints";
     EXPECT_THAT(refusal_of([&] { read_avatar(path); }), HasSubstr("x.glb: is no humanoid: " + why));
     const Avatar scene = read_avatar_or_scene(path);
     EXPECT_FALSE(scene.humanoid.has(HumanJoint::hips));

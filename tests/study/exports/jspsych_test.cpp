@@ -139,7 +139,7 @@ class JspsychForm : public ::testing::Test {
         write_text(sample_->open("jspsych/jspsych.js"), R"(
 const jsPsychPreload = {}, jsPsychHtmlButtonResponse = {}, jsPsychVideoButtonResponse = {}, jsPsychSurveyHtmlForm = {};
 const initJsPsych = () => ({
-    randomization: {randomID: (length) => 'x'.repeat(length), randomInt: (least) => least},
+    randomization: {randomID: (length) => 'drawn'.padEnd(length, '0'), randomInt: (least) => least},
     getDisplayElement: () => document.body,
     run(timeline) {
         const trial = timeline.find((one) => one.type === jsPsychSurveyHtmlForm);
@@ -202,7 +202,7 @@ TEST_F(JspsychForm, TakesAMarkThatWasNotFilledInForNoName) {
     for (const char* query : {"?sheet=0&p=wave1&PROLIFIC_PID={{%PROLIFIC_PID%}}",
                               "?sheet=0&PROLIFIC_PID=${e://Field/PROLIFIC_PID}"}) {
         open("pair", 1, query);
-        EXPECT_EQ(browser_->evaluate("kept.participant"), "xxxxxxxxxxxx") << query;
+        EXPECT_EQ(browser_->evaluate("kept.participant"), "drawn0000000") << query;
     }
 }
 
