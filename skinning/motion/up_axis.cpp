@@ -29,9 +29,9 @@ struct UpperBodyLimits {
 constexpr UpperBodyLimits kUpperBody;
 
 // Where the lowest point of a body is, against its height. Ours, chosen on 120 recordings of CMU and 7 samples as
-// points, whole, cut to half a second, moved by 0.4 m or with hips at the origin, with y or z up: who climbs or jumps is
-// above the floor throughout, and without a rest pose nearly everybody stands. All 1143 up axes are right; none were
-// held out.
+// points, whole, cut to half a second, moved by 0.4 m or with hips at the origin, with y or z up: people who climb or
+// jump are above the floor throughout, and without a rest pose nearly everybody stands. All 1143 up axes are right;
+// none were held out.
 struct GroundLimits {
     float below = -0.15f, above = 0.2f;          // on a floor at 0, against the axis of a rest pose
     float far_below = -0.25f, far_above = 0.6f;  // the same where there is none
@@ -247,7 +247,7 @@ class UpAxisChoice {
                 "frames; if nobody bows, crawls or lies there, set --up",
                 name_of_axis(axis), lean);
         }
-        // LaFAN1 rests along x; who stands on a floor stands.
+        // LaFAN1 rests along x; a body that stands on a floor stands.
         if (!rest_ || evidence_.is_model || *rest_ == axis || has_floor(axis)) return "";
         return format(
             "{} was taken for up, but the rest pose stands along {}; if somebody lies there, set --up {}",

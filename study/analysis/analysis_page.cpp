@@ -109,8 +109,8 @@ std::string cards_html(const Analysis& analysis) {
 std::string rules_html(const Analysis& analysis) {
     const ExclusionRules& rules = analysis.data.rules;
     std::string html = format(
-        "<p>Strict: who failed {} or more attention checks, or did not finish, does not count. Lenient: "
-        "who failed {} or more does not.",
+        "<p>Strict: participants who failed {} or more attention checks, or did not finish, do not count. "
+        "Lenient: those who failed {} or more do not.",
         rules.failed_checks, rules.lenient_failed_checks);
     if (rules.fastest_seconds)
         html += format(" A page that was answered in less than {:g} s is a failed check.",

@@ -141,7 +141,7 @@ Respondent read_respondent(const JsonValue& value, const fs::path& file, const S
     return participant;
 }
 
-// Who a service knows by one name is one person, whatever the page called them.
+// People whom a service knows by one name are one person, whatever the page called them.
 std::string known_as(const JsonValue& value) {
     const auto arrived = value.find("arrived_with");
     if (!arrived || !arrived->json().is_object()) return "";

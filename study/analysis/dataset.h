@@ -139,7 +139,7 @@ std::string label_of(const Dataset& data, std::vector<std::size_t> conditions);
 // triplet, is for that one of the two that comes first in the key: where that stands first on the page the score is
 // reversed, so that the highest score always means "the first", or "like the first".
 // `pages`, of the same build, say which questions a pass asks: a note counts those that were left out. They say what
-// a sheet shows: who lacks answers of it has not finished, and a note says so.
+// a sheet shows: people who lack answers of it have not finished, and a note says so.
 // A question that several passes ask is one for each of them, "natural-pass-2", and so is a scale of such questions.
 // A note names questions of which neither the key nor the layout says whether they name a side.
 // Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist, or an answer at the end

@@ -131,7 +131,7 @@ Json value_of(SimulatedRater& rater, const Question& question, const KeyPage& pa
     return {};
 }
 
-// Who likes a video rates a reversed item low.
+// A rater who likes a video rates a reversed item low.
 Json reversed_answer(const Question& question, const Json& value) {
     if (value.is_number()) return std::lround(reversed_value(question, value.get<double>()));
     Json list = Json::array();

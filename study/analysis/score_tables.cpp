@@ -270,9 +270,9 @@ Table anova_table(const TableSource& of) {
         .id = "anova",
         .title = "Analysis of variance of independent groups",
         .note =
-            "One way, of the scores of participants who rated one condition; who rated several, where most rated one, "
-            "is left out of all tests of the question. Takes participants as independent and their scores as normal "
-            "and as varying alike in all groups",
+            "One way, of the scores of participants who rated one condition; those who rated several, where most rated "
+            "one, are left out of all tests of the question. Takes participants as independent and their scores as "
+            "normal and as varying alike in all groups",
         .columns = {{"question", "question"},
                     {"groups", "groups", Show::whole},
                     {"n", "n", Show::whole},

@@ -66,7 +66,7 @@ std::string fault_of_page(const StudyRecord& study, const KeyPage& page) {
     return "";
 }
 
-// An archive keeps one date for all files. Who unpacks it gives them that date in their own time zone, or the time at
+// An archive keeps one date for all files. Unpacking gives them that date in the local time zone, or the time at
 // which each is unpacked, and that is in the order of the names, which are hashes. Returns what is wrong, or "".
 std::string fault_of_unpacked_times(const fs::path& folder) {
     std::string before;

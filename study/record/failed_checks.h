@@ -41,7 +41,7 @@ struct FailedCheck {
 std::vector<FailedCheck> failed_checks(const StudyKey& key, const StudyPages& pages,
                                        const std::vector<PageAnswer>& answers);
 
-// How many steps of a sheet are answered or were skipped. Who has finished has answered all of them.
+// How many steps of a sheet are answered or were skipped. A participant who has finished answered all of them.
 std::size_t count_answered(const std::vector<Step>& sheet, const std::vector<PageAnswer>& answers);
 
 }  // namespace chironomia::study

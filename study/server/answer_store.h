@@ -54,7 +54,7 @@ class AnswerStore {
     // Chooses the id; and where there is no name, or another participant has it, another one: "p-7", "ada-2".
     void add(const Participant& participant);
     void note_sign_of_life(std::int64_t participant, std::int64_t now);  // and has not declined
-    // The clock was set by so many milliseconds: who is at work still is.
+    // The clock was set by so many milliseconds: participants at work still are.
     void move_signs_of_life(std::int64_t by);
     // None is later than `now`: a clock that was set back while no server ran would keep places taken.
     void end_signs_of_life_at(std::int64_t now);

@@ -25,7 +25,7 @@ struct Incident {
     std::int64_t time = 0;  // ms since 1970
 };
 
-// How far a study is. Who was not seen since `now - timeout` (milliseconds) has dropped out.
+// How far a study is. Participants not seen since `now - timeout` (milliseconds) have dropped out.
 //   {"participants": {"begun", "finished", "active", "dropped_out", "failed_checks", "declined", "withdrawn",
 //   "wanted"},
 //   "answers",

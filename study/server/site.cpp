@@ -122,7 +122,7 @@ Site::Site(const ServedStudy& study, CommitQueue& queue, SiteOptions options)
       login_limit_(kLoginsASecond, kLoginsAtOnce),
       newcomer_limit_(options_.newcomers / 3600, options_.newcomers) {}
 
-// Who is at work when somebody sets the clock still is.
+// Participants at work when somebody sets the clock still are.
 std::int64_t Site::now() {
     const std::int64_t time = options_.clocks.unix_time();
     const std::int64_t jump = clock_.jump(time, options_.clocks.steady_time());

@@ -254,7 +254,7 @@ function makeGroup(questions, names, changed) {
   });
 }
 
-// Who has begun to answer an optional question of all videos may take everything back, so as to leave it open.
+// A participant who began to answer an optional question of all videos may take everything back, to leave it open.
 function offerToClear({question, element: field, lines}, changed) {
   if (!question.optional || !question.each) return;
   const again = element('button', {type: 'button', className: 'plain', disabled: true}, say('rank_again'));

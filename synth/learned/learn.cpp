@@ -31,7 +31,7 @@ void keep_freed_memory() {
 }
 
 int run() {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // who starts a killed training again must not find it still writing
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // a killed training must not go on writing beside the next one
     keep_freed_memory();
     watch_for_interrupts();
     try {

@@ -417,7 +417,7 @@ async function finish() {
   place.innerHTML = `<h1>Thank you!</h1>${lost}${link}${code}${next}`;
 }
 
-// Who has finished sees the end again; everybody else goes on where they were.
+// Participants who have finished see the end again; all others go on where they were.
 if (kept.finished) {
   addEventListener('load', finish);
 } else {
