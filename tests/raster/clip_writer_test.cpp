@@ -101,6 +101,20 @@ class ClipKinds : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(All, ClipKinds, ::testing::Values("mp4", "webm"),
                          [](const auto& i) { return i.param; });
 
+// Each one coded anew makes a still face jump a little.
+TEST_P(ClipKinds, HasAPictureOfItsOwnEveryTenSeconds) {
+    const TemporaryFolder folder;
+    const fs::path file = folder / ("clip." + GetParam());
+    ClipWriter writer(file, {.size = kSize, .fps = {2, 1}}, std::nullopt);
+    for (size_t i = 0; i < 50; ++i) writer.write(smooth_frame(kSize, 0));
+    writer.finish();
+    const Json packets = probe(file, "-select_streams v -show_entries packet=flags")["packets"];
+    std::vector<size_t> keys;
+    for (size_t i = 0; i < packets.size(); ++i)
+        if (packets[i]["flags"].get<std::string>().starts_with('K')) keys.push_back(i);
+    EXPECT_THAT(keys, ::testing::ElementsAre(0, 20, 40));
+}
+
 TEST_P(ClipKinds, NamesNoToolTimeOrFile) {
     const TemporaryFolder folder;
     const fs::path file = folder / ("condition_x." + GetParam());
