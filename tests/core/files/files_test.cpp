@@ -24,6 +24,18 @@ TEST(ReadText, RefusesWhatIsNoFile) {
               folder.path().string() + ": this is a folder, a file is needed");
 }
 
+TEST(ReadText, RefusesAPointerOfGitLfs) {
+    const TemporaryFolder folder;
+    const std::string pointer =
+        "version https://git-lfs.github.com/spec/v1\noid sha256:" + std::string(64, '0') + "\nsize 12345\n";
+    write_text(folder / "a.bvh", pointer);
+    EXPECT_EQ(refusal_of([&] { read_text(folder / "a.bvh"); }),
+              (folder / "a.bvh").string() +
+                  ": is a pointer of Git LFS, the file itself is not there; fetch it with git lfs pull");
+    write_text(folder / "about.txt", "a " + pointer);
+    EXPECT_EQ(read_text(folder / "about.txt"), "a " + pointer);
+}
+
 TEST(ReadText, LeavesOutTheByteOrderMark) {
     const TemporaryFolder folder;
     write_text(folder / "a", "\xEF\xBB\xBFtext \xEF\xBB\xBF");
