@@ -8,6 +8,7 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/avutil.h>
 #include <libavutil/dict.h>
 #include <libavutil/display.h>
 #include <libavutil/pixdesc.h>
@@ -71,6 +72,14 @@ std::vector<ClipTag> all_tags(const AVFormatContext& container) {
         add_tags(container.chapters[i]->metadata, format("chapter {}", i), tags);
     }
     return tags;
+}
+
+std::vector<std::string> tracks_of(const AVFormatContext& container) {
+    std::vector<std::string> tracks;
+    for (unsigned i = 0; i < container.nb_streams; ++i)
+        tracks.push_back(text_of(av_get_media_type_string(container.streams[i]->codecpar->codec_type)));
+    std::sort(tracks.begin(), tracks.end());
+    return tracks;
 }
 
 std::string_view bytes_of(const std::uint8_t* data, int size) {
@@ -223,7 +232,8 @@ ClipInfo read_clip_info(const fs::path& file) {
                   .bytes = static_cast<size_t>(fs::file_size(file)),
                   .picture = {},
                   .sound = {},
-                  .tags = all_tags(*container)};
+                  .tags = all_tags(*container),
+                  .tracks = tracks_of(*container)};
     info.index_first = std::string_view(info.container).starts_with("mov") && has_index_first(file);
     AVStream* picture = find_stream(*container, AVMEDIA_TYPE_VIDEO);
     const AVStream* sound = find_stream(*container, AVMEDIA_TYPE_AUDIO);

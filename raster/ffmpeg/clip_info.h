@@ -56,7 +56,8 @@ struct ClipInfo {
     bool index_first = false;  // MP4: a player can start before the whole file is there
     std::optional<PictureInfo> picture;
     std::optional<SoundInfo> sound;
-    std::vector<ClipTag> tags;  // all of them, of the file and of every stream
+    std::vector<ClipTag> tags;          // all of them, of the file and of every stream
+    std::vector<std::string> tracks{};  // what each stream is: "audio", "subtitle", "video", ...; ascending
 };
 
 // Throws Error if the file is missing, holds neither pictures nor sound, or is damaged or cut off.

@@ -24,7 +24,7 @@ struct FramePair {
 
 struct CompareOptions {
     CompareLimits limits = {};
-    double sound_limit = 0.01;  // largest error of a sample, of [-1, 1]
+    double sound_limit = 0.01;  // largest error of a sample, of [-1, 1]; less of quiet sounds (quiet_limit)
     // Frames beyond the limits still count as the same if at most this share of their pixels is seen to
     // differ (visible_difference.h); none: levels alone decide.
     std::optional<double> seen_share = {};
@@ -37,11 +37,12 @@ struct FileComparison {
     std::vector<FrameComparison> frames;  // in order
     size_t worst = 0;                     // the first frame with the largest root-mean-square error
     std::optional<double> sound_error;    // the largest of a sample; nothing unless both clips have sound
+    double sound_limit = 0;               // what it may be
     bool within_limits = true;            // of all frames and the sound
 };
 
-// Both can be read, but are not of one form: sizes, numbers of frames, rates, time stamps, the shape of pixels, how
-// players turn them, transfer or primaries of their colours, or the sound or its beginning differ.
+// Both can be read, but are not of one form: sizes, numbers of frames, rates, time stamps, tracks, the shape of pixels,
+// how players turn them, transfer or primaries of their colours, or the sound or its beginning differ.
 class DifferentForm : public Error {
   public:
     using Error::Error;

@@ -22,21 +22,40 @@ bool is_compared(const fs::path& file) {
            kCompared.end();
 }
 
+// A link to a folder.
+void expect_no_loop(const fs::path& link) {
+    if (!lies_within(link.parent_path(), link)) return;
+    throw Error(format("{}: is a link to {}, which holds it; remove the link", link.string(),
+                       fs::canonical(link).string()));
+}
+
+bool is_file(const fs::directory_entry& entry) {
+    return entry.is_regular_file() || (entry.is_symlink() && !fs::exists(entry.status()));
+}
+
 }  // namespace
+
+bool lies_within(const fs::path& path, const fs::path& folder) {
+    const fs::path inner = fs::weakly_canonical(fs::absolute(path));
+    const fs::path outer = fs::weakly_canonical(fs::absolute(folder));
+    return std::mismatch(inner.begin(), inner.end(), outer.begin(), outer.end()).second == outer.end();
+}
 
 std::vector<std::string> compared_files(const fs::path& folder) {
     std::error_code problem;
-    fs::recursive_directory_iterator entry(folder, problem);
-    if (problem)
-        throw Error(format("{}: cannot be listed ({}); check the path", folder.string(), problem.message()));
+    fs::recursive_directory_iterator entry(folder, fs::directory_options::follow_directory_symlink, problem);
     std::vector<std::string> names;
-    for (; entry != fs::recursive_directory_iterator(); ++entry) {
+    for (; !problem && entry != fs::recursive_directory_iterator(); entry.increment(problem)) {
         if (is_hidden(entry->path())) {
             if (entry->is_directory()) entry.disable_recursion_pending();
-        } else if (entry->is_regular_file() && is_compared(entry->path())) {
+        } else if (entry->is_directory()) {
+            if (entry->is_symlink()) expect_no_loop(entry->path());
+        } else if (is_file(*entry) && is_compared(entry->path())) {
             names.push_back(entry->path().lexically_relative(folder).generic_string());
         }
     }
+    if (problem)
+        throw Error(format("{}: cannot be listed ({}); check the path", folder.string(), problem.message()));
     std::sort(names.begin(), names.end());
     return names;
 }

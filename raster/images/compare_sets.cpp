@@ -105,11 +105,11 @@ class SetComparer {
 
     void record_sound(const NamedPair& pair, const FileComparison& files) {
         if (!files.sound_error) return;
-        const bool same = *files.sound_error <= options_.compare.sound_limit;
+        const bool same = *files.sound_error <= files.sound_limit;
         add(pair, pair.name + ": sound", same ? CaseOutcome::same : CaseOutcome::different,
             same ? ""
                  : format("a sample differs by {:.4f} of 1, at most {:.4f} may", *files.sound_error,
-                          options_.compare.sound_limit));
+                          files.sound_limit));
     }
 
     void write_picture(const fs::path& file, const Frame& picture) {
@@ -203,6 +203,12 @@ CompareSet compare_sets(const fs::path& expected, const fs::path& actual, const 
     for (const fs::path& path : {expected, actual}) {
         if (!fs::exists(path))
             throw Error(format("{}: there is no such file; check the path", path.string()));
+    }
+    for (const fs::path& folder : {expected, actual}) {
+        if (!options.difference_folder.empty() && lies_within(options.difference_folder, folder)) {
+            throw Error(format("{}: lies in {}, which is compared; write the differences elsewhere",
+                               options.difference_folder.string(), folder.string()));
+        }
     }
     const bool folders = fs::is_directory(expected) && fs::is_directory(actual);
     if (!folders && options.shard.count > 1)

@@ -61,7 +61,8 @@ struct CompareSet {
 // Two folders are matched by the relative names of their .png, .exr, .mp4 and .webm files, at any depth; names that
 // begin with a dot are passed over. Anything else is one pair as compare_files knows it. What cannot be read is a case
 // of its own in folders. A difference picture lies in the folder under the name of its file, "walk/00012.png" or
-// "walk.mp4/00012.png". Throws Error if one of both is not there, if both folders hold nothing to compare, if one part
+// "walk.mp4/00012.png"; those of earlier runs stay. Throws Error if one of both is
+// not there, if the folder for them lies in one that is compared, if both folders hold nothing to compare, if one part
 // is asked for of anything but two folders, or if a picture cannot be written; for one pair, what reading it throws.
 // Throws Interrupted if the user stops it.
 CompareSet compare_sets(const std::filesystem::path& expected, const std::filesystem::path& actual,
@@ -75,10 +76,11 @@ struct SetUpdate {
     size_t kept = 0;  // the same bytes
 };
 
-// Makes the results the new references: `expected` becomes `actual`, whole or not at all, and one move puts
-// it in place. A folder keeps what is not compared, such as a README. `expected` may be missing. Throws Error
-// if a result cannot be read, if there is none, if one is a file and the other a folder, if one lies within
-// the other, if `expected` holds a repository of its own, or if it cannot be written; then nothing has
+// Makes the results the new references: `expected` becomes `actual`, whole or not at all, and one move puts it in
+// place. A folder keeps what is not compared, such as a README or a link to one, and its permissions; where it has a
+// link to a folder of references, that becomes a folder. `expected` may be missing. Throws Error if a result cannot be
+// read, if there is none, if one is a file and the other a folder or a file with another ending, if one lies within the
+// other, if `expected` holds a repository of its own or is a mount point, or if it cannot be written; then nothing has
 // changed.
 SetUpdate update_references(const std::filesystem::path& expected, const std::filesystem::path& actual);
 

@@ -18,7 +18,7 @@ namespace {
 
 // A reference that cannot be read would fail for ever.
 void expect_readable(const fs::path& file) {
-    if (is_image(file)) {
+    if (has_image_name(file) || is_image(file)) {
         read_image(file);
         return;
     }
@@ -28,7 +28,7 @@ void expect_readable(const fs::path& file) {
 }
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
-    return fs::file_size(a) == fs::file_size(b) && read_bytes(a) == read_bytes(b);
+    return fs::exists(a) && fs::file_size(a) == fs::file_size(b) && read_bytes(a) == read_bytes(b);
 }
 
 SetUpdate count_update(const fs::path& expected, const fs::path& actual,
@@ -46,37 +46,52 @@ SetUpdate count_update(const fs::path& expected, const fs::path& actual,
     return update;
 }
 
-bool is_within(const fs::path& inner, const fs::path& outer) {
-    const auto [in, out] = std::mismatch(inner.begin(), inner.end(), outer.begin(), outer.end());
-    return out == outer.end();
-}
-
-fs::path real_path(const fs::path& path) {
-    return fs::weakly_canonical(fs::absolute(path));
-}
-
 void expect_apart(const fs::path& expected, const fs::path& actual) {
-    const fs::path a = real_path(expected), b = real_path(actual);
-    if (is_within(a, b) || is_within(b, a)) {
+    if (lies_within(expected, actual) || lies_within(actual, expected)) {
         throw Error(format("{}: lies within {} or holds it; keep references and results apart",
                            expected.string(), actual.string()));
     }
 }
 
-// Everything in the folder that is not compared.
+// Whether one of the names, ascending, lies in the folder.
+bool holds_one(const std::string& folder, const std::vector<std::string>& names) {
+    const auto next = std::lower_bound(names.begin(), names.end(), folder + "/");
+    return next != names.end() && next->starts_with(folder + "/");
+}
+
+// Everything in the folder that is not compared, and the permissions of folders. In the place of a link to a folder of
+// references stands the folder.
 void copy_companions(const fs::path& from, const fs::path& to) {
     const std::vector<std::string> compared = compared_files(from);
     for (const auto& entry : fs::recursive_directory_iterator(from)) {
         const std::string name = entry.path().lexically_relative(from).generic_string();
-        if (std::binary_search(compared.begin(), compared.end(), name) || entry.is_directory()) continue;
-        fs::create_directories((to / name).parent_path());
-        fs::copy(entry.path(), to / name, fs::copy_options::copy_symlinks);
+        const fs::path place = to / name;
+        if (std::binary_search(compared.begin(), compared.end(), name)) continue;
+        if (entry.is_directory() && holds_one(name, compared) && !fs::exists(place)) continue;  // all removed
+        if (entry.is_symlink() && fs::exists(place)) continue;
+        if (entry.is_directory() && !entry.is_symlink()) {
+            fs::create_directories(place);
+        } else {
+            fs::create_directories(place.parent_path());
+            fs::copy(entry.path(), place, fs::copy_options::copy_symlinks);
+        }
     }
+    for (const auto& entry : fs::recursive_directory_iterator(from)) {
+        const fs::path place = to / entry.path().lexically_relative(from);
+        if (entry.is_directory() && !entry.is_symlink() && fs::exists(place))
+            fs::permissions(place, entry.status().permissions());
+    }
+    fs::permissions(to, fs::status(from).permissions());
 }
 
 // Puts a finished folder in the place of another by one move; the other is then at `made`.
 void exchange(const fs::path& made, const fs::path& place) {
     if (renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0) return;
+    if (errno == EBUSY) {
+        throw Error(
+            format("{}: is mounted there, so it cannot be replaced; keep the references in a folder in it",
+                   place.string()));
+    }
     throw Error(format("{}: cannot be replaced in one move ({}); remove it and accept the results again",
                        place.string(), std::strerror(errno)));
 }
@@ -95,7 +110,7 @@ SetUpdate update_folder(const fs::path& expected, const fs::path& actual) {
                                     : count_update(expected, actual, match_files(expected, actual));
 
     // The references grow in a hidden folder beside their own.
-    const fs::path place = real_path(expected);
+    const fs::path place = fs::weakly_canonical(fs::absolute(expected));
     const fs::path made = place.parent_path() / format(".{}.accepted", place.filename().string());
     PendingOutput output(made, PendingOutput::Kind::folder);
     for (const std::string& name : results) {
@@ -113,6 +128,11 @@ SetUpdate update_folder(const fs::path& expected, const fs::path& actual) {
 }
 
 SetUpdate update_file(const fs::path& expected, const fs::path& actual) {
+    const auto ending = [](const fs::path& file) { return to_lower(file.extension().string()); };
+    if (ending(expected) != ending(actual)) {
+        throw Error(format("{}: cannot become {}, a file of another kind; give the reference its ending",
+                           expected.string(), actual.string()));
+    }
     expect_readable(actual);
     const bool is_new = !fs::exists(expected);
     if (!is_new && is_same_file(expected, actual)) return {.kept = 1};

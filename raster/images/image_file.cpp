@@ -90,4 +90,9 @@ bool is_image(const fs::path& file) {
     return kind_of_content(head.substr(0, static_cast<size_t>(stream.gcount()))).has_value();
 }
 
+bool has_image_name(const fs::path& file) {
+    const std::string ending = to_lower(file.extension().string());
+    return ending == ".png" || ending == ".exr";
+}
+
 }  // namespace chironomia

@@ -26,4 +26,7 @@ std::vector<std::byte> encode_png(const Frame& frame);
 // Whether the file's first bytes are those of a PNG or EXR. Throws Error if it cannot be opened.
 bool is_image(const std::filesystem::path& file);
 
+// Whether it is called .png or .exr, in any case.
+bool has_image_name(const std::filesystem::path& file);
+
 }  // namespace chironomia

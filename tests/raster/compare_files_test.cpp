@@ -128,6 +128,25 @@ TEST(CompareFiles, RefusesSoundThatBeginsElsewhereAgainstThePictures) {
                   " -0.100 s; join sound and pictures alike");
 }
 
+// Subtitles or a second voice may name the condition.
+TEST(CompareFiles, RefusesMoreTracks) {
+    const TemporaryFolder folder;
+    const fs::path a = folder / "a.mp4", b = folder / "b.mp4";
+    write_clip(a, {.sound = tone(0.2, 48000)});
+    testing::output_of("ffmpeg -nostdin -v error -i " + testing::quoted(a) + " -map 0 -map 0:a -c copy " +
+                       testing::quoted(b));
+    EXPECT_EQ(refusal_of([&] { compare_files(a, b); }),
+              a.string() + ": has the tracks audio, video, " + b.string() +
+                  " has audio, audio, video; write both with the same tracks");
+}
+
+TEST(CompareFiles, SaysOfPicturesThatTheyAreNone) {
+    const TemporaryFolder folder;
+    write_text(folder / "a.png", "a photograph");
+    EXPECT_EQ(refusal_of([&] { compare_files(folder / "a.png", folder / "a.png"); }),
+              (folder / "a.png").string() + ": is neither PNG nor EXR; convert it to one of them");
+}
+
 TEST(CompareFiles, RefusesWhatCannotBeCompared) {
     const TemporaryFolder folder;
     const std::string a = (folder / "a").string(), b = (folder / "b").string();

@@ -78,6 +78,39 @@ TEST(CompareSets, NamesMissingExtraAndDifferentFiles) {
     EXPECT_EQ(read_image(set.cases[1].difference).rgba[0], 255);
 }
 
+TEST(CompareSets, FollowsLinks) {
+    const TemporaryFolder folder;
+    write_pictures(folder / "a");
+    write_pictures(folder / "b", 200);
+    write_pictures(folder / "elsewhere");
+    for (const char* side : {"a", "b"}) {
+        fs::rename(folder / side / "walk", folder / (std::string(side) + "-walk"));
+        fs::create_directory_symlink(folder / (std::string(side) + "-walk"), folder / side / "walk");
+    }
+    fs::create_symlink("../nowhere.png", folder / "b/lost.png");
+    const CompareSet set = compare_sets(folder / "a", folder / "b");
+    EXPECT_THAT(outcomes(set), ElementsAre("a.png same", "lost.png extra", "walk/00001.png different"));
+}
+
+TEST(CompareSets, RefusesLinksThatRunInACircle) {
+    const TemporaryFolder folder;
+    write_pictures(folder / "a");
+    fs::create_directory_symlink("..", folder / "a/walk/up");
+    EXPECT_EQ(refusal_of([&] { compared_files(folder / "a"); }),
+              (folder / "a/walk/up").string() + ": is a link to " + fs::canonical(folder / "a").string() +
+                  ", which holds it; remove the link");
+}
+
+TEST(CompareSets, WritesNoDifferencesIntoWhatIsCompared) {
+    const TemporaryFolder folder;
+    write_pictures(folder / "a");
+    write_pictures(folder / "b", 200);
+    const fs::path inside = folder / "a/differences";
+    EXPECT_EQ(refusal_of([&] { compare_sets(folder / "a", folder / "b", {.difference_folder = inside}); }),
+              inside.string() + ": lies in " + (folder / "a").string() +
+                  ", which is compared; write the differences elsewhere");
+}
+
 TEST(CompareSets, KeepsThePicturesOfTheFirstFailures) {
     const TemporaryFolder folder;
     write_pictures(folder / "a");
@@ -113,6 +146,12 @@ TEST(CompareSets, ShowsEachFrameAndTheSoundOfAClip) {
     EXPECT_THAT(outcomes(set), ElementsAre("talk.mp4: frame 0 same", "talk.mp4: frame 1 same",
                                            "talk.mp4: frame 2 same", "talk.mp4: sound different"));
     EXPECT_THAT(set.cases[3].message, HasSubstr("of 1, at most 0.0100 may"));
+    // Half a tone of -46 dB, and none of it.
+    write_clip(folder / "quiet/talk.mp4", 0.01);
+    write_clip(folder / "silent/talk.mp4", 0);
+    const CompareSet quiet = compare_sets(folder / "quiet", folder / "silent");
+    EXPECT_EQ(quiet.cases[3].outcome, CaseOutcome::different) << quiet.cases[3].message;
+    EXPECT_TRUE(compare_sets(folder / "silent", folder / "silent").all_same());
     write_clip(folder / "b/talk.mp4", 1, 45);
     const CompareSet coarse =
         compare_sets(folder / "a/talk.mp4", folder / "b/talk.mp4", {.difference_folder = folder / "diff"});

@@ -75,6 +75,42 @@ TEST_F(UpdateReferences, MakesTheFirstReferences) {
     EXPECT_EQ(read_bytes(folder_ / "one.png"), read_bytes(actual_ / "deep/changed.png"));
 }
 
+// Links to other files and folders, empty folders and permissions are no pictures, and stay.
+TEST_F(UpdateReferences, KeepsLinksEmptyFoldersAndPermissions) {
+    fs::create_directories(folder_ / "shared");
+    write_text(folder_ / "shared/notes.txt", "of all references");
+    fs::create_directory_symlink("../shared", expected_ / "shared");
+    fs::create_directories(expected_ / "empty");
+    fs::permissions(expected_ / "deep", fs::perms::owner_all);
+    fs::permissions(expected_, fs::perms::owner_all);
+    update_references(expected_, actual_);
+    EXPECT_EQ(fs::read_symlink(expected_ / "shared"), "../shared");
+    EXPECT_TRUE(fs::is_directory(expected_ / "empty"));
+    EXPECT_EQ(fs::status(expected_ / "deep").permissions(), fs::perms::owner_all);
+    EXPECT_EQ(fs::status(expected_).permissions(), fs::perms::owner_all);
+}
+
+// A link to a folder of references becomes a folder, and what it leads to is as it was.
+TEST_F(UpdateReferences, PutsAFolderInThePlaceOfALinkToOne) {
+    fs::rename(expected_ / "deep", folder_ / "elsewhere");
+    fs::create_directory_symlink("../elsewhere", expected_ / "deep");
+    const SetUpdate update = update_references(expected_, actual_);
+    EXPECT_EQ(update.changed, 1u);
+    EXPECT_FALSE(fs::is_symlink(expected_ / "deep"));
+    EXPECT_EQ(read_bytes(expected_ / "deep/changed.png"), read_bytes(actual_ / "deep/changed.png"));
+    EXPECT_NE(read_bytes(folder_ / "elsewhere/changed.png"), read_bytes(actual_ / "deep/changed.png"));
+}
+
+TEST_F(UpdateReferences, RefusesAFileOfAnotherKind) {
+    const fs::path reference = expected_ / "kept.png", result = folder_ / "kept.exr";
+    write_image(result, plain_frame(kSize, {2, 2, 2}));
+    const auto before = read_bytes(reference);
+    EXPECT_EQ(refusal_of([&] { update_references(reference, result); }),
+              reference.string() + ": cannot become " + result.string() +
+                  ", a file of another kind; give the reference its ending");
+    EXPECT_EQ(read_bytes(reference), before);
+}
+
 TEST_F(UpdateReferences, TakesAClipOnlyWhole) {
     ClipWriter writer(actual_ / "clip.mp4", {.size = kSize, .fps = {30, 1}}, std::nullopt);
     for (int i = 0; i < 30; ++i) writer.write(plain_frame(kSize, {i, 0, 0}));

@@ -88,10 +88,11 @@ const CompareCase* worst_of(const CompareSet& set) {
 std::string to_text(const CompareSet& set) {
     constexpr std::size_t kMostRows = 20;
     std::string text;
-    std::size_t rows = 0, frames = 0, same_frames = 0;
+    std::size_t rows = 0, frames = 0, same_frames = 0, others = 0;  // others: sounds and forms that differ
     for (const CompareCase& one : set.cases) {
         frames += one.frame ? 1 : 0;
         same_frames += one.frame && one.outcome == CaseOutcome::same ? 1 : 0;
+        others += !one.frame && one.outcome == CaseOutcome::different ? 1 : 0;
         if (one.outcome == CaseOutcome::same || ++rows > kMostRows) continue;
         text += format("{}: {}: {}\n", to_text(one.outcome), one.name, one.message);
         if (!one.difference.empty()) text += format("    {}\n", one.difference.string());
@@ -99,6 +100,7 @@ std::string to_text(const CompareSet& set) {
     if (rows > kMostRows) text += format("... and {} more\n", rows - kMostRows);
     text += format("{}: {} of {} frames within the limits", set.all_same() ? "the same" : "different",
                    same_frames, frames);
+    if (others > 0) text += format(", {} of another form or sound", others);
     for (const CaseOutcome outcome : {CaseOutcome::missing, CaseOutcome::extra, CaseOutcome::unreadable}) {
         if (const std::size_t count = set.count(outcome)) text += format(", {} {}", count, to_text(outcome));
     }
