@@ -18,7 +18,7 @@ constexpr std::size_t kSampleFrames = 30;  // of each, from its middle
 constexpr double kTaskSeconds = 1800;
 constexpr std::size_t kMostTasks = 1000;    // of an array, as Slurm is set up by default (MaxArraySize 1001)
 constexpr double kReserve = 2;              // ours: other nodes may be half as fast
-constexpr double kMemoryReserve = 1.5;      // ours
+constexpr double kMemoryReserve = 0.5;      // ours: of a process
 constexpr std::size_t kShortestLimit = 10;  // [min]
 
 double seconds_of(const timeval& time) {
@@ -108,7 +108,8 @@ Forecast forecast_build(const Plan& plan, const BuildOptions& options, const Cli
     Forecast forecast{.videos = state.distinct.size(),
                       .missing = state.missing.size(),
                       .size = plan.render.size,
-                      .draft_seconds = spent_seconds() - before};
+                      .draft_seconds = spent_seconds() - before,
+                      .jobs = options.jobs};
     if (!state.missing.empty()) {
         const Rates rates = measure_rates(state, maker);
         for (const std::size_t video : state.missing) forecast.frames += frames_of(state.distinct[video].job);
@@ -130,13 +131,15 @@ Forecast forecast_build(const Plan& plan, const BuildOptions& options, const Cli
 }
 
 SlurmArray array_for(const Forecast& forecast) {
-    const auto wanted = static_cast<std::size_t>(std::ceil(forecast.cpu_seconds / kTaskSeconds));
+    const double seconds = forecast.cpu_seconds / forecast.jobs;
+    const auto wanted = static_cast<std::size_t>(std::ceil(seconds / kTaskSeconds));
     SlurmArray array;
     array.tasks =
         std::clamp<std::size_t>(wanted, 1, std::clamp<std::size_t>(forecast.missing, 1, kMostTasks));
-    const double task = forecast.draft_seconds + forecast.cpu_seconds / static_cast<double>(array.tasks);
+    const double task = forecast.draft_seconds + seconds / static_cast<double>(array.tasks);
     array.minutes = std::max(kShortestLimit, static_cast<std::size_t>(std::ceil(kReserve * task / 60)));
-    array.megabytes = static_cast<std::size_t>(std::ceil(kMemoryReserve * forecast.peak_mb / 100)) * 100;
+    const double megabytes = (forecast.jobs + kMemoryReserve) * forecast.peak_mb;
+    array.megabytes = static_cast<std::size_t>(std::ceil(megabytes / 100)) * 100;
     return array;
 }
 
@@ -155,7 +158,8 @@ std::string to_text(const Forecast& forecast) {
            labelled_list("disk", {format("{} at the end; {} while it is laid out", gigabytes(forecast.bytes),
                                          gigabytes(forecast.distinct_bytes + forecast.bytes))}) +
            labelled_list("ask for",
-                         {format("--slurm --array {} --time {}:{:02}:00 --sbatch \"--mem={}M\"", array.tasks,
+                         {format("--slurm --array {}{} --time {}:{:02}:00 --sbatch \"--mem={}M\"",
+                                 array.tasks, forecast.jobs > 1 ? format(" --jobs {}", forecast.jobs) : "",
                                  array.minutes / 60, array.minutes % 60, array.megabytes)});
 }
 

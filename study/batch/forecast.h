@@ -18,6 +18,7 @@ struct Forecast {
     double bytes = 0;           // of the study, in which each place of a page has a file of its own
     double draft_seconds = 0;   // of a core, that each process takes before it records
     double peak_mb = 0;         // largest resident memory so far
+    int jobs = 1;               // videos that are to be recorded at once, each in a process of its own
     std::size_t measured_frames = 0;
     std::size_t measured_videos = 0;
 };

@@ -18,6 +18,14 @@ std::vector<std::string> build_words(const SlurmScript& script) {
     return words;
 }
 
+// As a pattern of sbatch, to which % is special in folders, too.
+std::string log_pattern(const fs::path& log) {
+    std::string folder;
+    for (const char c : log.parent_path().string())
+        folder += c == '%' ? std::string("%%") : std::string(1, c);
+    return quoted_for_shell((fs::path(folder) / log.filename()).string());
+}
+
 // The options of sbatch that all jobs share, one a line.
 std::string common_options(const SlurmScript& script) {
     std::string options =
@@ -37,8 +45,8 @@ TASK
 )
 echo "${{parts%%;*}}"
 )",
-                  ranges_of(script.wanted), quoted_for_shell(log_of_part(script, "%a").string()),
-                  common_options(script), command_of(build_words(script)), script.parts);
+                  ranges_of(script.wanted), log_pattern(log_of_part(script, "%a")), common_options(script),
+                  command_of(build_words(script)), script.parts);
 }
 
 // Where a task fails, the study cannot be laid out: Slurm then removes the job instead of keeping it for ever.
@@ -58,7 +66,7 @@ LAYOUT
 )
 echo "${{layout%%;*}}"
 )",
-                  quoted_for_shell(log_of_layout(script).string()), dependency, common_options(script),
+                  log_pattern(log_of_layout(script)), dependency, common_options(script),
                   command_of(build_words(script)),
                   command_of({script.program.string(), "study", "check", script.study.string()}),
                   quoted_for_shell(passed.string() + ".partial"),

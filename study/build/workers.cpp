@@ -105,9 +105,11 @@ bool Child::has_ended(const Work& work) {
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
     if (WIFEXITED(status) && WEXITSTATUS(status) == kInterrupted) throw Interrupted();
     if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused) throw Error(last_words());
-    throw Error(format("{}: its process ended {}; render it alone to see why", work.name(piece_),
-                       WIFSIGNALED(status) ? format("by signal {}", WTERMSIG(status))
-                                           : format("with status {}", WEXITSTATUS(status))));
+    std::string how = format("with status {}", WEXITSTATUS(status));
+    if (WIFSIGNALED(status)) how = format("by signal {}", WTERMSIG(status));
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+        how += ", as where memory runs out; take fewer --jobs";
+    throw Error(format("{}: its process ended {}; render it alone to see why", work.name(piece_), how));
 }
 
 void perform_in_children(const Work& work, std::size_t jobs, Progress& progress) {

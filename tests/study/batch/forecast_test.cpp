@@ -92,6 +92,17 @@ TEST(Forecast, AsksForTasksOfHalfAnHour) {
     EXPECT_THAT(text, HasSubstr("--slurm --array 200 --time 1:02:00 --sbatch \"--mem=500M\""));
 }
 
+// Each video that is recorded beside others has a process of its own.
+TEST(Forecast, AsksForTheMemoryOfAllProcessesOfATask) {
+    Forecast forecast{.videos = 3000, .missing = 3000, .jobs = 8};
+    forecast.cpu_seconds = 100 * 3600;
+    forecast.peak_mb = 300;
+    EXPECT_EQ(array_for(forecast).megabytes, 2600u);
+    EXPECT_EQ(array_for(forecast).tasks, 25u);
+    EXPECT_THAT(to_text(forecast),
+                HasSubstr("--slurm --array 25 --jobs 8 --time 1:00:00 --sbatch \"--mem=2600M\""));
+}
+
 TEST(Forecast, AsksForNoMoreTasksThanVideosOrThanSlurmTakes) {
     Forecast forecast{.videos = 5, .missing = 5};
     forecast.cpu_seconds = 1e6;

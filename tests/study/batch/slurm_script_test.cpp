@@ -49,6 +49,20 @@ TEST(SlurmScript, SubmitsAnArrayAndAJobThatWaitsForIt) {
     EXPECT_THAT(to_text(script), Not(HasSubstr("--dependency")));
 }
 
+// sbatch takes %a for the number of a task, in folders too.
+TEST(SlurmScript, KeepsPercentSignsOfFolders) {
+    const std::string text = to_text({.job_name = "chironomia-1",
+                                      .program = "/opt/chironomia",
+                                      .build = {"study", "build"},
+                                      .study = "/data/50%a",
+                                      .logs = "/data/50%a.slurm",
+                                      .parts = 2,
+                                      .wanted = {1, 2}});
+    EXPECT_THAT(text, HasSubstr("mkdir -p '/data/50%a.slurm'"));
+    EXPECT_THAT(text, HasSubstr("--output='/data/50%%a.slurm/part-%a.log'"));
+    EXPECT_THAT(text, HasSubstr("--output='/data/50%%a.slurm/layout.log'"));
+}
+
 TEST(SlurmQueue, SaysWhereThereIsNoSlurm) {
     const std::string before = std::getenv("PATH");
     ::setenv("PATH", "/nowhere", 1);

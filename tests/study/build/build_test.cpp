@@ -543,7 +543,8 @@ TEST_F(BuildStudy, SaysWhichVideoCrashedItsProcess) {
     };
     EXPECT_EQ(
         refusal_of([&] { build("study", 7, 2); }),
-        (folder_ / "base/c2.bvh").string() + ": its process ended by signal 9; render it alone to see why");
+        (folder_ / "base/c2.bvh").string() +
+            ": its process ended by signal 9, as where memory runs out; take fewer --jobs; render it alone to see why");
     fake_.before = [](const ClipJob&) { ::_exit(9); };
     EXPECT_THAT(refusal_of([&] { build("study", 7, 2); }),
                 HasSubstr(": its process ended with status 9; render it alone to see why"));
