@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 #include "core/error.h"
@@ -63,6 +64,11 @@ std::vector<MotionFile> motions_of(const FitJob& job) {
             throw Error(format("{}: holds no motion; give a folder with BVH, keypoints or OpenPose in it",
                                path.string()));
     }
+    // Folders of several systems hold files of the same names.
+    std::map<std::string, std::size_t> counts;
+    for (const MotionFile& motion : motions) ++counts[motion.name];
+    for (MotionFile& motion : motions)
+        if (counts[motion.name] > 1) motion.name = motion.file.generic_string();
     return motions;
 }
 

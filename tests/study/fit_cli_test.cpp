@@ -344,6 +344,22 @@ TEST(FitCli, ABrokenClipIsShownAsSuchBesideTheOthers) {
     EXPECT_FALSE(std::regex_search(html, std::regex("(src|href)=\"(?!data:|#)"))) << "it needs no other file";
 }
 
+// As systems of a study are kept: a folder for each, with files of the same names.
+TEST(FitCli, NamesTheFoldersOfMotionsOfTheSameName) {
+    const TemporaryFolder folder;
+    write_person(folder / "ours/a.json", false);
+    write_person(folder / "ours/b.json", false);
+    write_person(folder / "base/a.json", true);
+    const fs::path page = folder / "page.html";
+    const Outcome outcome =
+        fit({(folder / "ours").string(), (folder / "base").string(), "--report", page.string()});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("fit to show   " + (folder / "ours/a.json").string() + "\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("fit to show   b.json\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("do not show   " + (folder / "base/a.json").string() + "\n"));
+    EXPECT_THAT(read_text(page), HasSubstr((folder / "base/a.json").string()));
+}
+
 TEST(FitCli, TheJsonHoldsWhatThePageShows) {
     const TemporaryFolder folder;
     const fs::path file = folder / "fit.json";
@@ -394,6 +410,11 @@ TEST(FitCli, SaysWhatIsWrong) {
     const Outcome faces = fit({(folder / "f").string()});
     EXPECT_EQ(faces.exit_code, 3);
     EXPECT_THAT(faces.err, HasSubstr("holds faces alone; give the motion of a body"));
+    const Outcome table = fit({kMotion, "--report", (folder / "fit.csv").string()});
+    EXPECT_EQ(table.exit_code, 3);
+    EXPECT_THAT(table.err,
+                HasSubstr("fit.csv: a report is a page, .html, or .json; give it one of these endings"));
+    EXPECT_FALSE(fs::exists(folder / "fit.csv"));
     EXPECT_EQ(fit({}).exit_code, 2);
     EXPECT_THAT(fit({kMotion, "--avatar", "stick"}).err, HasSubstr("stick: is drawn from a motion"));
 }

@@ -24,8 +24,12 @@ std::string to_text(const FittedClips& fitted) {
     return text;
 }
 
+std::string ending_of(const std::filesystem::path& report) {
+    return to_lower(report.extension().string());
+}
+
 bool is_page(const std::filesystem::path& report) {
-    return report.extension() == ".html" || report.extension() == ".htm";
+    return ending_of(report) == ".html" || ending_of(report) == ".htm";
 }
 
 }  // namespace
@@ -60,6 +64,10 @@ void add_fit(CLI::App& app, std::optional<Command>& result) {
 }
 
 int run(const FitCommand& command) {
+    if (command.report && !is_page(*command.report) && ending_of(*command.report) != ".json") {
+        throw Error(format("{}: a report is a page, .html, or .json; give it one of these endings",
+                           command.report->string()));
+    }
     FitJob job = command.job;
     job.pictures = command.report && is_page(*command.report);
     const FittedClips fitted = fit_clips(job);
