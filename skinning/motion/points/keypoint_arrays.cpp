@@ -135,9 +135,17 @@ const NumpyArray* find_array(const std::vector<NumpyArray>& arrays,
     return nullptr;
 }
 
-// Turns of a body model look like flat points (165 = 55 * 3) but are none.
+// Turns of a body model look like flat points (165 = 55 * 3) but are none, and so do the weights of its face.
 void refuse_body_model(const std::vector<NumpyArray>& arrays, const std::string& where) {
-    if (!find_array(arrays, {"poses", "body_pose", "pose_body", "smpl_poses"})) return;
+    if (!find_array(arrays, {"poses", "body_pose", "pose_body", "smpl_poses"})) {
+        const bool has_points = std::any_of(arrays.begin(), arrays.end(),
+                                            [](const NumpyArray& array) { return array.shape.size() > 2; });
+        if (has_points || !find_array(arrays, {"betas"}) || !find_array(arrays, {"trans", "transl"})) return;
+        throw Error(format(
+            "{}: holds shape and place of the SMPL body model, but no turns of its joints ({}); store them "
+            "as \"poses\" (T, 165), (T, 156), (T, 72) or (T, 66)",
+            where, describe_all(arrays)));
+    }
     if (!find_array(arrays, {"betas", "trans", "transl", "global_orient", "root_orient", "expressions"}))
         return;
     throw Error(format(

@@ -284,14 +284,16 @@ std::optional<std::string> note_of_other_rate(const std::vector<NumpyArray>& arr
 
 double rate_of(const std::vector<NumpyArray>& arrays, const std::string& where, std::optional<double> fps) {
     if (fps) return *fps;
-    const NumpyArray* rate = find_named_array(arrays, kRateNames);
-    if (!rate || rate->numbers.size() != 1)
-        throw Error(format("{}: the file does not give its rate; set it with --motion-fps", where));
-    if (!(rate->numbers[0] > 0 && std::isfinite(rate->numbers[0]))) {
+    const NumpyArray* array = find_named_array(arrays, kRateNames);
+    std::optional<double> rate;
+    if (array && array->numbers.size() == 1) rate = array->numbers[0];
+    if (array && array->texts.size() == 1) rate = parse_number(array->texts[0]);
+    if (!rate) throw Error(format("{}: the file does not give its rate; set it with --motion-fps", where));
+    if (!(*rate > 0 && std::isfinite(*rate))) {
         throw Error(format("{}: {} is {}; it must be above 0, or set the rate with --motion-fps", where,
-                           rate->name, rate->numbers[0]));
+                           array->name, *rate));
     }
-    return rate->numbers[0];
+    return *rate;
 }
 
 // Of AIST++, whose bodies and places are larger by it.

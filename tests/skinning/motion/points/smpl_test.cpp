@@ -9,6 +9,7 @@
 #include "skinning/gltf/gltf.h"
 #include "skinning/humanoid/humanoid_map.h"
 #include "skinning/motion/motion_file.h"
+#include "skinning/motion/points/keypoint_arrays.h"
 #include "tests/support/numpy_files.h"
 #include "tests/support/support.h"
 
@@ -233,6 +234,13 @@ TEST(ReadSmpl, KnowsTurnsInAnArrayWithoutAName) {
                      (folder / "rows.npy").string()));
 }
 
+TEST(ReadSmpl, TakesARateThatIsAText) {
+    std::vector<NumpyArray> arrays = standing(165);
+    arrays[2].numbers.clear();
+    arrays[2].texts = {"25"};
+    EXPECT_EQ(motion_of_smpl(arrays, "a.npz", {}).fps, 25);
+}
+
 TEST(ReadSmpl, SaysWhatIsWrong) {
     const auto refusal = [](auto change) {
         std::vector<NumpyArray> arrays = standing(165);
@@ -241,6 +249,17 @@ TEST(ReadSmpl, SaysWhatIsWrong) {
     };
     EXPECT_EQ(refusal([](auto& arrays) { arrays.pop_back(); }),
               "a.npz: the file does not give its rate; set it with --motion-fps");
+    EXPECT_THAT(refusal_of([] {
+                    std::vector<NumpyArray> arrays = standing(165);
+                    arrays[0] = {.name = "betas", .type = "<f8", .shape = {2}, .numbers = {0, 0}};
+                    arrays.push_back({.name = "expressions",
+                                      .type = "<f8",
+                                      .shape = {2, 100},
+                                      .numbers = std::vector<double>(200, 0)});
+                    keypoints_of_arrays(arrays, "a.npz");
+                }),
+                HasSubstr("a.npz: holds shape and place of the SMPL body model, but no turns of its joints "
+                          "(betas (2), trans (2, 3)"));
     EXPECT_EQ(refusal([](auto& arrays) { arrays[2].numbers[0] = 0; }),
               "a.npz: mocap_frame_rate is 0; it must be above 0, or set the rate with --motion-fps");
     EXPECT_EQ(refusal([](auto& arrays) {
