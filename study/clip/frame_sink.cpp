@@ -23,10 +23,11 @@ FrameStack new_stack(const fs::path& pattern) {
     const bool works_here = fs::equivalent(folder, fs::current_path(), problem);
     const bool holds_something = fs::is_directory(folder, problem) && !fs::is_empty(folder, problem);
     if (works_here || holds_something) {
-        throw Error(format("{}: frames get a new folder of their own, and {} {}; write them like {}",
-                           pattern.string(), folder.string(),
-                           works_here ? "is the one you are in" : "already holds something",
-                           (stack.folder / "frames" / pattern.filename()).string()));
+        const std::string another = (stack.folder / "frames" / pattern.filename()).string();
+        throw Error(format("{}: frames get a new folder of their own, and {} {}", pattern.string(),
+                           folder.string(),
+                           works_here ? format("is the one you are in; write them like {}", another)
+                                      : "already holds something; remove it, or name another one"));
     }
     return stack;
 }

@@ -203,10 +203,17 @@ std::vector<Segment> read_segments(const fs::path& file) {
                         .end = seconds_in(table, row, end)};
         expect_possible(segment, table, row);
         const auto [first, is_new] = rows.emplace(to_lower(segment.id()), &row);
-        if (!is_new)
-            throw Error(format("{}{} is the same clip, {}, as {} in line {}; leave one of them out",
-                               segment.where, shown(table, row), segment.id(), shown(table, *first->second),
-                               first->second->line));
+        if (!is_new) {
+            const auto name_of = [&](const CsvRow& one) {
+                return name_in_table(fs::path(trim(one.cells[name])));
+            };
+            const bool differ = name_of(row) != name_of(*first->second);
+            throw Error(format(
+                "{}{} is the same clip, {}, as {} in line {}; {}", segment.where, shown(table, row),
+                segment.id(), shown(table, *first->second), first->second->line,
+                differ ? "leave one of them out, or rename it, as names that differ in case alone are one"
+                       : "leave one of them out"));
+        }
         if (segment.speaker.empty()) segment.speaker = speaker_in(segment.name);
         segment.turn = turns[segment.name]++;
         segments.push_back(std::move(segment));

@@ -40,11 +40,11 @@ void require_texts_of_language(const JsonValue& whole, const std::string& langua
 }
 
 // The path below a folder whose names are these letter by letter, even where one writes an accent as a letter of its
-// own, as file systems of Apple do; as it is written if there is none.
+// own, as file systems of Apple do; as it is written if there is none. The folder itself may not be there yet.
 fs::path find_path(const fs::path& folder, const fs::path& written) {
-    fs::path found = folder;
+    fs::path found = folder.empty() || fs::exists(folder) ? folder : fs::absolute(folder);
     for (const fs::path& name : written) {
-        fs::path next = found / name;
+        fs::path next = name == ".." && !fs::exists(found) ? found.parent_path() : found / name;
         if (std::error_code ignored; !fs::exists(next)) {
             const std::string wanted = composed(name.string());
             for (const auto& entry : fs::directory_iterator(found.empty() ? "." : found, ignored)) {

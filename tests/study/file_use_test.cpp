@@ -288,7 +288,7 @@ TEST_F(FileUse, WritesFramesIntoAFolderOfTheirOwn) {
         read_text(in("err")),
         HasSubstr(
             "frames/f_%d.png: frames get a new folder of their own, and frames already holds something; "
-            "write them like frames/frames/f_%d.png\n"));
+            "remove it, or name another one\n"));
 }
 
 // Nothing limits root: nobody starts the program, with root's rights to files.

@@ -279,7 +279,9 @@ TEST_F(PlanFromFolders, RefusesWhatCannotBecomeAPlan) {
     EXPECT_THAT(refusal("1_wayne_0_1_1,0,1,1\n2_scott_0_1_1,0,1,1\n1_Wayne_0_1_1.wav,0.01,1,0.99\n"),
                 HasSubstr("segments.csv:4: \"1_Wayne_0_1_1.wav\" from 0.01 s to 1 s is the same clip, "
                           "1_Wayne_0_1_1_0-30, as \"1_wayne_0_1_1\" from 0 s to 1 s in line 2; leave one of "
-                          "them out"));
+                          "them out, or rename it, as names that differ in case alone are one\n"));
+    EXPECT_THAT(refusal("1_wayne_0_1_1,0,1,1\n1_wayne_0_1_1.wav,0.01,1,0.99\n"),
+                HasSubstr("in line 2; leave one of them out\n"));
     EXPECT_THAT(refusal("1_wayne_0_1_1,0,1,1\nzo\xeb,0,1,1\n"),
                 HasSubstr("segments.csv:3: the byte 0xeb is not UTF-8; save the table as UTF-8"));
     EXPECT_THAT(refusal("5_zhao_0_1_1,0,1,1\n"),
@@ -295,6 +297,16 @@ TEST_F(PlanFromFolders, RefusesWhatCannotBecomeAPlan) {
         HasSubstr(
             "wav: holds no file that ends in .flac, .mp3, .ogg, .wav, .aac, .m4a, .mkv, .mov, .mp4, .opus, "
             ".webm; name the folder"));
+}
+
+// The paths in it are relative to a folder that is not there yet.
+TEST_F(PlanFromFolders, GoesIntoANewFolder) {
+    ASSERT_EQ(plan({"--out", in("plan.json")}).exit_code, 0);
+    const Outcome made = plan({"--out", in("new/deep/plan.json")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Json here = read_json(folder_ / "plan.json"), there = read_json(folder_ / "new/deep/plan.json");
+    EXPECT_EQ(there["clips"][0]["audio"], "../../" + here["clips"][0]["audio"].get<std::string>());
+    EXPECT_EQ(run_chironomia({"study", "plan", in("new/deep/plan.json")}).exit_code, 0);
 }
 
 TEST_F(PlanFromFolders, NeedsAllItsOptions) {
