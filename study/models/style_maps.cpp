@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 
 #include "core/files/files.h"
 #include "core/hdf5/file.h"
@@ -31,27 +33,34 @@ Vectors read_vectors(const Hdf5File& file, const std::string& path, std::size_t 
     return {.width = width, .values = file.read_numbers(path, {count, width})};
 }
 
-// The speakers by name, and which of them each segment is of.
-struct SpeakerLabels {
+// The names of speakers or intervals, each once, and which of them each segment is of.
+struct NamedLabels {
     std::vector<std::string> names;
     std::vector<std::size_t> labels;  // (N)
 };
 
-SpeakerLabels labels_of(const std::vector<std::string>& speakers) {
-    SpeakerLabels found{.names = speakers};
+NamedLabels labels_of(const std::vector<std::string>& names) {
+    NamedLabels found{.names = names};
     std::ranges::sort(found.names);
     found.names.erase(std::unique(found.names.begin(), found.names.end()), found.names.end());
-    for (const std::string& speaker : speakers) {
-        const auto at = std::ranges::lower_bound(found.names, speaker);
+    for (const std::string& name : names) {
+        const auto at = std::ranges::lower_bound(found.names, name);
         found.labels.push_back(static_cast<std::size_t>(at - found.names.begin()));
     }
     return found;
 }
 
-// Every third segment judges the probe.
-ProbeSplit probe_split(std::size_t count) {
+// Every third interval of a speaker judges the probe, with all its segments: what an interval's segments share, such as
+// its words' posture, is not the speaker's.
+ProbeSplit probe_split(const NamedLabels& speakers, const std::vector<std::size_t>& intervals) {
+    std::map<std::size_t, std::set<std::size_t>> of_speaker;
+    for (std::size_t i = 0; i < intervals.size(); ++i) of_speaker[speakers.labels[i]].insert(intervals[i]);
     ProbeSplit split;
-    for (std::size_t i = 0; i < count; ++i) (i % 3 == 2 ? split.test : split.train).push_back(i);
+    for (std::size_t i = 0; i < intervals.size(); ++i) {
+        const std::set<std::size_t>& own = of_speaker[speakers.labels[i]];
+        const auto place = std::distance(own.begin(), own.find(intervals[i]));
+        (place % 3 == 2 ? split.test : split.train).push_back(i);
+    }
     return split;
 }
 
@@ -75,7 +84,7 @@ SingleVectors single_vectors(const Vectors& all, const std::vector<std::size_t>&
 }
 
 void write_map(const fs::path& stem, const std::string& title, const Vectors& vectors,
-               const SpeakerLabels& speakers) {
+               const NamedLabels& speakers) {
     const TsneMap map = tsne(vectors);
     ScatterPlot plot{.title = title, .groups = speakers.names};
     std::string csv = "speaker,x,y\n";
@@ -93,7 +102,8 @@ void write_map(const fs::path& stem, const std::string& title, const Vectors& ve
 StyleEncodings read_encodings(const fs::path& file, const std::string& model) {
     const auto bytes = read_bytes(file);
     const Hdf5File hdf5(bytes, file.string());
-    StyleEncodings encodings{.model = model, .speakers = hdf5.read_texts("speakers")};
+    StyleEncodings encodings{
+        .model = model, .speakers = hdf5.read_texts("speakers"), .intervals = hdf5.read_texts("intervals")};
     encodings.style = read_vectors(hdf5, "style", encodings.speakers.size());
     encodings.content = read_vectors(hdf5, "content", encodings.speakers.size());
     for (const char* name : kModalities)
@@ -111,8 +121,9 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
         .id = "encodings",
         .title = "Speakers in what a model encodes",
         .note =
-            "Silhouette of the speakers; the share of segments whose five nearest are of the same speaker; a "
-            "linear probe that learns from two of three segments. Style should show the speaker, content should "
+            "Silhouette of the speakers; the share of segments that most of their five nearest of other "
+            "intervals give the right speaker; a linear probe that learns from two of three intervals of each "
+            "speaker. Style should show the speaker, content should "
             "not. Adversary R2: the share of the variance of the style that the adversary guesses from the content.",
         .columns = {{"model", "Model"},
                     {"encoding", "Encoding"},
@@ -125,12 +136,12 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
                     {"chance", "by chance", Show::three},
                     {"adversary_r2", "Adversary R2", Show::three}}};
     for (const StyleEncodings& encodings : all) {
-        const SpeakerLabels speakers = labels_of(encodings.speakers);
-        const ProbeSplit split = probe_split(encodings.speakers.size());
-        if (split.test.empty()) continue;
+        const NamedLabels speakers = labels_of(encodings.speakers);
+        const std::vector<std::size_t> intervals = labels_of(encodings.intervals).labels;
+        const ProbeSplit split = probe_split(speakers, intervals);
         const bool has_others = std::ranges::any_of(
             speakers.labels, [&](std::size_t label) { return label != speakers.labels.front(); });
-        const bool has_probe = std::ranges::any_of(split.train, [&](std::size_t i) {
+        const bool has_probe = !split.test.empty() && std::ranges::any_of(split.train, [&](std::size_t i) {
             return speakers.labels[i] != speakers.labels[split.train.front()];
         });
         std::vector<std::pair<const char*, const Vectors*>> kinds{{"style", &encodings.style},
@@ -138,9 +149,9 @@ Table encodings_table(const std::vector<StyleEncodings>& all) {
         for (const char* name : kModalities)
             if (encodings.modalities.contains(name)) kinds.emplace_back(name, &encodings.modalities.at(name));
         for (const auto& [name, vectors] : kinds) {
-            std::vector<Cell> row{encodings.model, name, vectors->count(),
-                                  mean_silhouette(*vectors, speakers.labels),
-                                  has_others ? neighbour_accuracy(*vectors, speakers.labels) : std::nullopt};
+            std::vector<Cell> row{
+                encodings.model, name, vectors->count(), mean_silhouette(*vectors, speakers.labels),
+                has_others ? neighbour_accuracy(*vectors, speakers.labels, intervals) : std::nullopt};
             if (has_probe) {
                 const LabelProbe probe = probe_labels(*vectors, speakers.labels, split);
                 row.insert(row.end(),
@@ -183,7 +194,7 @@ Table strength_table(const std::vector<StyleJudgement>& all, double own_accuracy
 }
 
 void write_style_maps(const fs::path& folder, const StyleEncodings& encodings) {
-    const SpeakerLabels speakers = labels_of(encodings.speakers);
+    const NamedLabels speakers = labels_of(encodings.speakers);
     write_map(folder / (encodings.model + "-style"), encodings.model + ": style by speaker", encodings.style,
               speakers);
     write_map(folder / (encodings.model + "-content"), encodings.model + ": content by speaker",

@@ -18,6 +18,7 @@ namespace chironomia::study {
 struct StyleEncodings {
     std::string model;
     std::vector<std::string> speakers;            // (N)
+    std::vector<std::string> intervals;           // (N) the interval that a segment is of, by its name
     Vectors style, content;                       // (N, S), (N, C)
     std::map<std::string, Vectors> modalities{};  // (N, of its own width): "speech", "text", "pose", "face"
     // (N, S) what the adversary guesses of `style` from `content`; none: there was no adversary.
@@ -27,10 +28,10 @@ struct StyleEncodings {
 StyleEncodings read_encodings(const std::filesystem::path& file, const std::string& model);
 
 // Of h_style, of the modalities that it is made of, and of h_content, which should not give the speaker away: the
-// silhouette of the speakers, the share of segments whose five nearest are of their speaker, and a linear probe that
-// learns from two of three segments. Of h_content the variance of h_style that the adversary explains, too. Without any
-// of these of a single speaker, and a probe where the segments that it learns from are of one; none of fewer than three
-// segments.
+// silhouette of the speakers, the share of segments that most of their five nearest of other intervals give the right
+// speaker, and a linear probe that learns from two of three intervals of each speaker. Of h_content the variance of
+// h_style that the adversary explains, too. Without any of these of a single speaker, and without a probe where the
+// segments that it learns from are of one, or where no speaker has three intervals.
 analysis::Table encodings_table(const std::vector<StyleEncodings>& all);
 
 // What a classifier of styles says of a model's clips (synth/learned/styles/style_classifier.h).

@@ -299,7 +299,8 @@ TEST_F(Style, IsMappedAndJudged) {
     std::vector<std::string> encodings;
     for (const Json& row : tables["encodings"]) {
         encodings.push_back(row["encoding"]);
-        EXPECT_NEAR(row["chance"].get<double>(), 0.5, 0.2);
+        EXPECT_TRUE(row["neighbours"].is_number());
+        EXPECT_TRUE(row["probe"].is_null()) << "no speaker has three intervals, one of which would judge";
         // A model that has hardly learned guesses the style no better than its mean.
         EXPECT_EQ(row["adversary_r2"].is_null(), encodings.back() != "content");
         if (encodings.back() == "content") {

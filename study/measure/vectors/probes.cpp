@@ -99,12 +99,11 @@ double best_single_answer(std::span<const std::size_t> labels, std::span<const s
     return static_cast<double>(most) / static_cast<double>(places.size());
 }
 
-// The label that most of a vector's neighbours have.
-std::size_t vote_of_neighbours(const Vectors& vectors, std::span<const std::size_t> labels, std::size_t self,
+using Neighbour = std::pair<double, std::size_t>;  // squared distance, place
+
+// The label that most of the nearest have.
+std::size_t vote_of_neighbours(std::vector<Neighbour> others, std::span<const std::size_t> labels,
                                std::size_t neighbours) {
-    std::vector<std::pair<double, std::size_t>> others;  // squared distance, place
-    for (std::size_t j = 0; j < vectors.count(); ++j)
-        if (j != self) others.emplace_back(squared_distance(vectors[self], vectors[j]), j);
     const std::size_t voters = std::min(neighbours, others.size());
     std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(voters), others.end());
     std::map<std::size_t, std::size_t> votes;
@@ -144,13 +143,18 @@ LabelProbe probe_labels(const Vectors& vectors, std::span<const std::size_t> lab
 }
 
 std::optional<double> neighbour_accuracy(const Vectors& vectors, std::span<const std::size_t> labels,
-                                         std::size_t neighbours) {
-    assert(labels.size() == vectors.count() && neighbours > 0);
+                                         std::span<const std::size_t> groups, std::size_t neighbours) {
+    assert(labels.size() == vectors.count() && groups.size() == labels.size() && neighbours > 0);
     require_finite(vectors, "nearest neighbours");
-    if (labels.size() < 2) return std::nullopt;
     std::size_t right = 0;
-    for (std::size_t i = 0; i < labels.size(); ++i)
-        right += vote_of_neighbours(vectors, labels, i, neighbours) == labels[i];
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        std::vector<Neighbour> others;
+        for (std::size_t j = 0; j < labels.size(); ++j)
+            if (groups[j] != groups[i]) others.emplace_back(squared_distance(vectors[i], vectors[j]), j);
+        if (others.empty()) return std::nullopt;
+        right += vote_of_neighbours(std::move(others), labels, neighbours) == labels[i];
+    }
+    if (labels.empty()) return std::nullopt;
     return static_cast<double>(right) / static_cast<double>(labels.size());
 }
 

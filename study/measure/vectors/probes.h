@@ -40,11 +40,12 @@ struct LabelProbe {
 LabelProbe probe_labels(const Vectors& vectors, std::span<const std::size_t> labels, const ProbeSplit& split,
                         const RidgeOptions& options = {});
 
-// The share of vectors whose nearest others have their label, by most votes of `neighbours`; a tie goes to the
-// label whose voter is nearer. Neighbours that are equally near come in their order. None of fewer than two
-// vectors. Throws Error if values are not finite.
+// The share of vectors whose nearest ones of other groups have their label, by most votes of `neighbours`; a tie goes
+// to the label whose voter is nearer. Neighbours that are equally near come in their order. None of a single group.
+// Throws Error if values are not finite.
+//   groups   (N), any numbers: vectors that resemble each other for another reason than their label
 std::optional<double> neighbour_accuracy(const Vectors& vectors, std::span<const std::size_t> labels,
-                                         std::size_t neighbours = 5);
+                                         std::span<const std::size_t> groups, std::size_t neighbours = 5);
 
 // The share of the variance of `truth` that `guess` explains, over all numbers together: 1 if they are equal, 0 if it
 // is as near as the mean, below 0 if it is farther. None where nothing varies. Both of the same shape.

@@ -57,7 +57,7 @@ Json encode_styles(const StyleModel& model, const JsonValue& job) {
     }
     const torch::NoGradGuard no_gradients;
     model.module->eval();
-    std::vector<std::string> speakers;
+    std::vector<std::string> speakers, intervals;
     std::map<std::string, std::vector<Tensor>> encoded;  // by the array's name
     for (std::size_t first = 0; first < windows.size(); first += kEncodedAtATime) {
         const std::size_t count = std::min<std::size_t>(kEncodedAtATime, windows.size() - first);
@@ -68,12 +68,15 @@ Json encode_styles(const StyleModel& model, const JsonValue& job) {
         for (StyleModality& modality : model.modalities_of(segments))
             encoded[modality.name].push_back(std::move(modality.encoded));
         if (model.guess_of) encoded["guess"].push_back(model.guess_of(segments));
-        for (std::size_t i = first; i < first + count; ++i)
+        for (std::size_t i = first; i < first + count; ++i) {
             speakers.push_back(records.entries()[windows[i].entry].speaker);
+            intervals.push_back(records.entries()[windows[i].entry].id);
+        }
     }
     const std::string out = job.at("out").text();
     Hdf5Writer file(out, out);
     file.write_texts("speakers", speakers);
+    file.write_texts("intervals", intervals);
     for (const auto& [name, rows] : encoded) write_matrix(file, name.c_str(), torch::cat(rows));
     file.close();
     return {{"segments", windows.size()}};

@@ -3,6 +3,7 @@
 // {checkpoint, corpus, split, out, options: {segments}} -> {segments}; `out` is an HDF5 file of N segments, evenly
 // spread over those of the split, `segments` of each speaker at most:
 //   /speakers  (N) text
+//   /intervals (N) text, the interval that a segment is of
 //   /style     (N, S) h_style
 //   /content   (N, C) h_content, the mean over its frames
 //   /speech, /text, /pose, /face  (N, of its own width) what each modality that the style is taken from says by itself

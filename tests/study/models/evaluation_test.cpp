@@ -361,7 +361,9 @@ TEST(EvaluationTables, ShowPublishedNumbersInColumnsOfTheirOwn) {
 
 // Nobody else is there to be near.
 TEST(EvaluationTables, HaveNoNeighboursOfASingleSpeaker) {
-    StyleEncodings encodings{.model = "m", .speakers = std::vector<std::string>(6, "anna")};
+    StyleEncodings encodings{.model = "m",
+                             .speakers = std::vector<std::string>(6, "anna"),
+                             .intervals = {"a1", "a2", "a3", "a4", "a5", "b1"}};
     for (Vectors* vectors : {&encodings.style, &encodings.content})
         *vectors = {.width = 1, .values = {1, 2, 3, 4, 5, 6}};
     const Json alone = analysis::to_json(encodings_table({encodings}));
@@ -369,6 +371,29 @@ TEST(EvaluationTables, HaveNoNeighboursOfASingleSpeaker) {
     EXPECT_TRUE(alone[0]["silhouette"].is_null());
     encodings.speakers[5] = "ben";
     EXPECT_TRUE(analysis::to_json(encodings_table({encodings}))[0]["neighbours"].is_number());
+}
+
+// Segments of an interval are alike, and those of a speaker are not: a probe that learned from segments of the interval
+// that judges it would find all of them.
+TEST(EvaluationTables, JudgeAProbeByIntervalsThatItHasNotSeen) {
+    StyleEncodings encodings{.model = "m"};
+    for (std::size_t speaker = 0; speaker < 2; ++speaker) {
+        for (std::size_t interval = 0; interval < 6; ++interval) {
+            for (std::size_t segment = 0; segment < 6; ++segment) {
+                encodings.speakers.push_back(speaker == 0 ? "anna" : "ben");
+                encodings.intervals.push_back(format("{}{}", encodings.speakers.back(), interval));
+                // A place of its own for each interval, on its own axis.
+                for (std::size_t axis = 0; axis < 12; ++axis)
+                    encodings.style.values.push_back(axis == 6 * speaker + interval ? 1 : 0);
+            }
+        }
+    }
+    encodings.style.width = 12;
+    encodings.content = encodings.style;
+    const Json row = analysis::to_json(encodings_table({encodings}))[0];
+    EXPECT_EQ(row["n"], 72);
+    EXPECT_LE(row["probe"].get<double>(), 0.5) << "no better than chance";
+    EXPECT_LE(row["neighbours"].get<double>(), 0.5) << "all others are equally far";
 }
 
 TEST(EvaluationTables, ShowPeopleAboveModels) {

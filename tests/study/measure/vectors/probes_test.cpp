@@ -101,16 +101,26 @@ TEST(ProbeLabels, NeedsTwoLabelsToLearn) {
 TEST(NeighbourAccuracy, CountsVotesOfTheNearest) {
     const Vectors vectors{.width = 1, .values = {0, 1, 10, 11, 12, 11.5}};
     const Labels labels = {0, 0, 1, 1, 1, 0};
-    EXPECT_EQ(neighbour_accuracy(vectors, labels, 1), 3.0 / 6);
-    EXPECT_EQ(neighbour_accuracy(vectors, labels, 3), 3.0 / 6);
-    EXPECT_FALSE(neighbour_accuracy({.width = 1, .values = {1}}, Labels{0}));
+    const Labels alone = {0, 1, 2, 3, 4, 5};
+    EXPECT_EQ(neighbour_accuracy(vectors, labels, alone, 1), 3.0 / 6);
+    EXPECT_EQ(neighbour_accuracy(vectors, labels, alone, 3), 3.0 / 6);
+}
+
+// Pairs of one group lie beside each other; of others 0 and 1 are near 10 alone, 10 and 11 near 1, 20 and 21 near 11.
+TEST(NeighbourAccuracy, AsksOtherGroupsAlone) {
+    const Vectors vectors{.width = 1, .values = {0, 1, 10, 11, 20, 21}};
+    const Labels groups = {5, 5, 6, 6, 7, 7};
+    EXPECT_EQ(neighbour_accuracy(vectors, groups, Labels{0, 1, 2, 3, 4, 5}, 1), 1);
+    EXPECT_EQ(neighbour_accuracy(vectors, groups, groups, 1), 0);
+    EXPECT_EQ(neighbour_accuracy(vectors, Labels{1, 1, 2, 2, 2, 2}, groups, 1), 3.0 / 6);
+    EXPECT_FALSE(neighbour_accuracy(vectors, groups, Labels(6, 0))) << "nobody to ask";
 }
 
 // Two votes each among the four others of 0: the nearer one's label wins.
 TEST(NeighbourAccuracy, BreaksTiesByDistance) {
     const Vectors vectors{.width = 1, .values = {0, 1, 2, 3, 4}};
     const Labels labels = {7, 7, 8, 8, 7};
-    EXPECT_EQ(neighbour_accuracy(vectors, labels, 4), 2.0 / 5);
+    EXPECT_EQ(neighbour_accuracy(vectors, labels, Labels{0, 1, 2, 3, 4}, 4), 2.0 / 5);
 }
 
 // Of the four numbers the mean leaves 2 x 1 and 2 x 9 squared, in all 20.
