@@ -29,8 +29,8 @@ namespace {
 
 // Part of the format of a clip, not a choice of the machine: another number of threads is another file.
 constexpr int kVideoThreads = 4;
-constexpr int kSoundRate = 48000;            // [Hz]
-constexpr int kSoundBits = 160'000;          // [bit/s]
+constexpr int kSoundRate = 48000;    // [Hz]
+constexpr int kSoundBits = 160'000;  // [bit/s]
 // A player seeks from these. Each is coded anew, so that what stands still jumps a little; ours, so that most clips of a
 // study have a single one. 10 s of 1280x720 decode in a second on one core.
 constexpr double kSecondsBetweenKeys = 10.0;
