@@ -19,9 +19,8 @@ namespace {
 
 constexpr double kMostApart = 0.002;  // of beginnings [s]: WebM counts milliseconds
 
-// Ours: a quarter of the loudest sample is 12 dB below it, and 0.0005, or -66 dB, is not heard beside a quiet room.
-constexpr double kSoundShare = 0.25;
-constexpr double kLeastSoundLimit = 0.0005;
+constexpr double kSoundShare = 0.25;         // of the loudest sample of what is expected
+constexpr double kLeastSoundLimit = 0.0005;  // of full scale
 
 constexpr double kMostLate = 0.1;  // ours: of time stamps [frames]
 constexpr double kClock = 0.0011;  // of WebM, which counts milliseconds, with what is rounded [s]

@@ -29,8 +29,15 @@ void expect_no_loop(const fs::path& link) {
                        fs::canonical(link).string()));
 }
 
+// A link that leads nowhere, or to itself, is read as a file, and reading says what is wrong.
 bool is_file(const fs::directory_entry& entry) {
-    return entry.is_regular_file() || (entry.is_symlink() && !fs::exists(entry.status()));
+    std::error_code unknown;
+    return entry.is_regular_file(unknown) || (entry.is_symlink() && !fs::exists(entry.status(unknown)));
+}
+
+bool is_folder(const fs::directory_entry& entry) {
+    std::error_code unknown;
+    return entry.is_directory(unknown);
 }
 
 }  // namespace
@@ -47,8 +54,8 @@ std::vector<std::string> compared_files(const fs::path& folder) {
     std::vector<std::string> names;
     for (; !problem && entry != fs::recursive_directory_iterator(); entry.increment(problem)) {
         if (is_hidden(entry->path())) {
-            if (entry->is_directory()) entry.disable_recursion_pending();
-        } else if (entry->is_directory()) {
+            if (is_folder(*entry)) entry.disable_recursion_pending();
+        } else if (is_folder(*entry)) {
             if (entry->is_symlink()) expect_no_loop(entry->path());
         } else if (is_file(*entry) && is_compared(entry->path())) {
             names.push_back(entry->path().lexically_relative(folder).generic_string());

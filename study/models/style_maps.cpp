@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "core/error.h"
 #include "core/files/files.h"
 #include "core/hdf5/file.h"
 #include "core/text.h"
@@ -104,6 +105,10 @@ StyleEncodings read_encodings(const fs::path& file, const std::string& model) {
     const Hdf5File hdf5(bytes, file.string());
     StyleEncodings encodings{
         .model = model, .speakers = hdf5.read_texts("speakers"), .intervals = hdf5.read_texts("intervals")};
+    if (encodings.intervals.size() != encodings.speakers.size()) {
+        throw Error(format("{}: /intervals has {} names, /speakers {}; encode the styles again",
+                           file.string(), encodings.intervals.size(), encodings.speakers.size()));
+    }
     encodings.style = read_vectors(hdf5, "style", encodings.speakers.size());
     encodings.content = read_vectors(hdf5, "content", encodings.speakers.size());
     for (const char* name : kModalities)

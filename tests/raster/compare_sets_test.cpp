@@ -88,8 +88,10 @@ TEST(CompareSets, FollowsLinks) {
         fs::create_directory_symlink(folder / (std::string(side) + "-walk"), folder / side / "walk");
     }
     fs::create_symlink("../nowhere.png", folder / "b/lost.png");
+    fs::create_symlink("self.png", folder / "b/self.png");
     const CompareSet set = compare_sets(folder / "a", folder / "b");
-    EXPECT_THAT(outcomes(set), ElementsAre("a.png same", "lost.png extra", "walk/00001.png different"));
+    EXPECT_THAT(outcomes(set),
+                ElementsAre("a.png same", "lost.png extra", "self.png extra", "walk/00001.png different"));
 }
 
 TEST(CompareSets, RefusesLinksThatRunInACircle) {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/files/files.h"
+#include "core/hdf5/writer.h"
 #include "core/random.h"
 #include "core/text.h"
 #include "study/models/evaluation_baselines.h"
@@ -371,6 +372,17 @@ TEST(EvaluationTables, HaveNoNeighboursOfASingleSpeaker) {
     EXPECT_TRUE(alone[0]["silhouette"].is_null());
     encodings.speakers[5] = "ben";
     EXPECT_TRUE(analysis::to_json(encodings_table({encodings}))[0]["neighbours"].is_number());
+}
+
+TEST(ReadEncodings, RefusesIntervalsThatAreNotThoseOfTheSegments) {
+    const testing::TemporaryFolder folder;
+    const auto file = folder / "encodings.h5";
+    Hdf5Writer writer(file.string(), file.string());
+    writer.write_texts("speakers", {"anna", "ben"});
+    writer.write_texts("intervals", {"a1"});
+    writer.close();
+    EXPECT_EQ(testing::refusal_of([&] { read_encodings(file, "m"); }),
+              file.string() + ": /intervals has 1 names, /speakers 2; encode the styles again");
 }
 
 // Segments of an interval are alike, and those of a speaker are not: a probe that learned from segments of the interval
