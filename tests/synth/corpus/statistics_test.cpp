@@ -72,6 +72,14 @@ CorpusIndex intervals(const std::filesystem::path& folder, double phase_of_other
     // A coordinate that is 3 in half of the frames and 7 in the others: mean 5, standard deviation 2.
     for (std::size_t t = 0; t < train.frames(); ++t)
         train.pose[t * 2 * IntervalRecord::kJoints + 5] = t % 2 == 0 ? 3.0f : 7.0f;
+    // Two that are 5 +- 0.5 and 5 +- 10.
+    for (std::size_t t = 0; t < train.frames(); ++t) {
+        const float side = t % 2 == 0 ? 1.0f : -1.0f;
+        for (std::vector<float>* pose : {&train.pose, &train.pose_normalized}) {
+            (*pose)[t * 2 * IntervalRecord::kJoints + 6] = 5 + 0.5f * side;
+            (*pose)[t * 2 * IntervalRecord::kJoints + 7] = 5 + 10 * side;
+        }
+    }
     write_interval(folder, train);
     write_interval(folder, sample_interval("i2", "a", phase_of_others));
     write_interval(folder, sample_interval("i3", "b", phase_of_others));
@@ -92,6 +100,16 @@ TEST(Statistics, OfIntervalsAreMeanAndTwoDeviations) {
     EXPECT_EQ(found.of("audio/log_mel_512").size(), 1u);
     EXPECT_EQ(found.of("text/bert").size(), kWordVector);
     EXPECT_EQ(found.of("face/data").size(), 2 * IntervalRecord::kFacePoints);
+}
+
+// What a point that stands still varies by is its tracker's noise.
+TEST(Statistics, OfNormalisedPointsDeviateByTwoPixelsAtLeast) {
+    const TemporaryFolder folder;
+    const CorpusStatistics found = measure_statistics(intervals(folder.path(), 1));
+    EXPECT_NEAR(found.of("pose/data")[6].one, 6, 1e-6);
+    EXPECT_NEAR(found.of("pose/normalize")[6].zero, 5, 1e-6);
+    EXPECT_NEAR(found.of("pose/normalize")[6].one, 9, 1e-6);
+    EXPECT_NEAR(found.of("pose/normalize")[7].one, 25, 1e-6);
 }
 
 std::string bytes_of(const CorpusIndex& corpus) {
