@@ -1,6 +1,7 @@
 #include "synth/markup/ssml.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -67,10 +68,16 @@ const SsmlElement* element_named(std::string_view name) {
     return found == std::end(kElements) ? nullptr : found;
 }
 
+bool is_amount(std::string_view text) {
+    constexpr double kMost = 1e6;  // in any unit, far more than a voice can do
+    const auto number = parse_number(text);
+    return number && std::abs(*number) <= kMost;
+}
+
 // "+10%", "-2st", "1.2", "500ms", "120Hz"
 bool is_measure(std::string_view text, std::string_view units) {
     for (const std::string_view unit : split_words(units))
-        if (text.ends_with(unit) && parse_number(text.substr(0, text.size() - unit.size()))) return true;
+        if (text.ends_with(unit) && is_amount(text.substr(0, text.size() - unit.size()))) return true;
     return false;
 }
 
@@ -85,7 +92,7 @@ bool fits(const SsmlAttribute& attribute, std::string_view value) {
         case Form::time:
             return is_measure(value, "ms s") && !value.starts_with('-');
         case Form::amount:
-            return is_measure(value, "% st Hz dB") || parse_number(value);
+            return is_measure(value, "% st Hz dB") || is_amount(value);
     }
     return false;
 }
@@ -159,16 +166,10 @@ std::string with_escaped_text(std::string_view text) {
     return escaped;
 }
 
-std::optional<std::string> attribute_of(const XmlNode& element, std::string_view name) {
-    for (const XmlAttribute& attribute : element.attributes)
-        if (attribute.name == name) return attribute.value;
-    return std::nullopt;
-}
-
 // The aliases of all <sub>, in the order of their tags.
 void collect_aliases(const XmlNode& element, const XmlSource& source, std::vector<std::string>& aliases) {
     if (element.name == "sub") {
-        const std::optional<std::string> alias = attribute_of(element, "alias");
+        const std::optional<std::string> alias = find_attribute(element, "alias");
         if (!alias)
             throw Error(format("{}: <sub> says no alias; write alias=\"what is to be said\"",
                                Place{element, source}.to_text()));
@@ -275,7 +276,7 @@ class EmphasisReader {
 
   private:
     void add(const XmlNode& element, std::size_t end) {
-        const std::string level = attribute_of(element, "level").value_or("moderate");
+        const std::string level = find_attribute(element, "level").value_or("moderate");
         const std::size_t first = word_at(text_.words, element.at - root_);
         const std::size_t last = word_from(text_.words, end - root_);
         if (first >= last) return;

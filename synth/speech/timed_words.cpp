@@ -158,8 +158,11 @@ class Times {
     }
 
     void refuse_wrong_times(const TimedLabel& label) const {
+        constexpr double kLongest = 1e9;  // [s], 30 years
         if (!(label.start >= 0))
             refuse(label, format("starts at {:.3f} s; write a time from 0 on", label.start));
+        if (!(label.end <= kLongest))
+            refuse(label, format("ends at {:.3g} s; write a time of up to {:g} s", label.end, kLongest));
         if (!(label.end >= label.start)) {
             refuse(label, format("ends at {:.3f} s, before it starts at {:.3f} s; correct its times",
                                  label.end, label.start));

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "skinning/body/keypoint_layout.h"
 #include "skinning/motion/picture/person_tracker.h"
+#include "skinning/motion/points/even_frames.h"
 #include "skinning/signal/late_beginning.h"
 
 namespace chironomia {
@@ -17,7 +18,6 @@ namespace {
 
 constexpr std::string_view kEnding = "_keypoints.json";
 constexpr std::size_t kHandPoints = 21;
-constexpr std::size_t kMostFrames = 1'000'000;
 
 // The files by the number in their names.
 std::map<std::size_t, fs::path> numbered_files(const fs::path& folder) {
@@ -201,13 +201,9 @@ Motion read_openpose(const fs::path& folder, std::optional<double> fps) {
         throw Error(format(
             "{}: OpenPose does not write the frame rate; give that of the video with --motion-fps", where));
     }
-    const std::size_t first = files.begin()->first, frames = files.rbegin()->first - first + 1;
-    if (frames > kMostFrames || files.size() * 2 < frames) {
-        throw Error(format(
-            "{}: holds {} of the frames {} to {}; more than half of them are missing, keep the frames of one "
-            "clip in a folder",
-            where, files.size(), first, first + frames - 1));
-    }
+    const std::size_t first = files.begin()->first;
+    const std::size_t frames = count_numbered(
+        {.held = files.size(), .first = first, .last = files.rbegin()->first}, where, "a folder");
     FolderReader reader;
     Motion motion{.source = where,
                   .fps = *fps,

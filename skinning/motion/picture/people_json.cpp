@@ -16,9 +16,8 @@
 namespace chironomia {
 namespace {
 
-constexpr double kSurest = 6;           // AlphaPose, of COCO's points; beyond 1 a point is sure
-constexpr double kFarthestPixel = 1e7;  // [px or the file's unit]
-constexpr std::size_t kMostNumbered = 1'000'000;
+constexpr double kSurest = 6;            // AlphaPose, of COCO's points; beyond 1 a point is sure
+constexpr double kFarthestPixel = 1e7;   // [px or the file's unit]
 constexpr std::size_t kBodyOfCoco = 17;  // come first in every layout of COCO
 
 const Json* find_people_list(const Json& object, const char* key) {
@@ -186,13 +185,9 @@ std::vector<SeenFrame> in_order_of_numbers(std::vector<SeenFrame> frames, const 
             "frames: in the order of the file, as the names of the pictures do not number them");
         return frames;
     }
-    const std::size_t first = *numbers.begin(), count = *numbers.rbegin() - first + 1;
-    if (count > kMostNumbered || 2 * frames.size() < count) {
-        throw Error(
-            format("{}: holds {} of the frames {} to {}; more than half of them are missing, keep the frames "
-                   "of one clip in a file",
-                   where, frames.size(), first, *numbers.rbegin()));
-    }
+    const std::size_t first = *numbers.begin();
+    const std::size_t count =
+        count_numbered({.held = frames.size(), .first = first, .last = *numbers.rbegin()}, where, "a file");
     std::vector<SeenFrame> ordered(count);
     for (SeenFrame& frame : frames) ordered[*frame.number - first] = std::move(frame);
     if (count > frames.size()) data.notes.push_back(format("{} frames are left out", count - frames.size()));

@@ -179,6 +179,16 @@ void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers
     if (at.back() >= static_cast<double>(at.size())) lay_out(data, at, where);
 }
 
+size_t count_numbered(const NumberedFrames& frames, const std::string& where, std::string_view holder) {
+    constexpr size_t kMost = 1'000'000;
+    const size_t before_last = frames.last - frames.first;
+    if (before_last < kMost && before_last < 2 * frames.held) return before_last + 1;
+    throw Error(
+        format("{}: holds {} of the frames {} to {}; more than half of them are missing, keep the frames of "
+               "one clip in {}",
+               where, frames.held, frames.first, frames.last, holder));
+}
+
 void note_first_number(KeypointData& data, double first) {
     if (first <= 1) return;
     data.first_number = first;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "skinning/motion/points/keypoint_data.h"
@@ -26,6 +27,15 @@ void even_out_times(KeypointData& data, std::vector<double> times, const FramePl
 // The same of numbers of frames, which go up by one where none is missing; the rate is not set. Fewer than two change
 // nothing. Throws Error if they are not whole, do not advance, or advance by more than two everywhere.
 void fill_missing_numbers(KeypointData& data, const std::vector<double>& numbers, const FramePlaces& where);
+
+struct NumberedFrames {
+    size_t held;         // that are there
+    size_t first, last;  // numbers
+};
+
+// How many frames there are from the first to the last number. Throws Error with `where`, and `holder`, "a file" or "a
+// folder", if more than half of them are missing, or they are more than a million.
+size_t count_numbered(const NumberedFrames& frames, const std::string& where, std::string_view holder);
 
 // Keeps that the first frame of the file has this number, if that is above 1, so that the motion begins later than a
 // sound of the whole recording; a note says so.

@@ -122,6 +122,11 @@ TEST(Ssml, RefusesWhatTheVoiceCannotSpeak) {
     EXPECT_EQ(
         refusal("a<break time=\"long\"/>"),
         "talk.ssml:1:10: time \"long\" of <break> cannot be spoken; write a time such as 500ms or 0.5s");
+    for (const char* time : {"nans", "infs", "1e300s", "-1s"})
+        EXPECT_THAT(refusal("a<break time=\"" + std::string(time) + "\"/>"), HasSubstr("cannot be spoken"));
+    for (const char* rate : {"nan%", "+infdB", "1e30%", "inf"})
+        EXPECT_THAT(refusal("<prosody rate=\"" + std::string(rate) + "\">a</prosody>"),
+                    HasSubstr("cannot be spoken; write one of"));
     EXPECT_THAT(refusal("<prosody rate=\"quick\">a</prosody>"),
                 StartsWith("talk.ssml:1:9: rate \"quick\" of <prosody> cannot be spoken; write one o"));
     EXPECT_EQ(refusal("<prosody speed=\"2\">a</prosody>"),

@@ -581,6 +581,7 @@ TEST_F(TimedWordsOf, AreRefusedIfTheirTimesCannotBe) {
               "line 1: \"hello\" ends at 1.000 s, before it starts at 1.500 s; correct its times");
     EXPECT_EQ(refusal("hello,-0.5,1\n"), "line 1: \"hello\" starts at -0.500 s; write a time from 0 on");
     EXPECT_EQ(refusal("hello,nan,1\n"), "line 1: \"hello\" starts at nan s; write a time from 0 on");
+    EXPECT_EQ(refusal("hello,1,1e12\n"), "line 1: \"hello\" ends at 1e+12 s; write a time of up to 1e+09 s");
     EXPECT_EQ(
         refusal("hello,1,2\nworld,1.5,3\n"),
         "line 2: \"world\" starts at 1.500 s, before \"hello\" (line 1) ends at 2.000 s; write one voice, in "

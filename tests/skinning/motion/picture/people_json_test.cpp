@@ -170,6 +170,8 @@ TEST_F(PeopleJson, RefusesWhatDoesNotFit) {
                 HasSubstr("frame 5: is neither a result with \"image_id\""));
     EXPECT_THAT(refusal("[" + result("0", 1) + ", " + result("9", 1) + "]"),
                 HasSubstr("holds 2 of the frames 0 to 9; more than half of them are missing"));
+    EXPECT_THAT(refusal("[" + result("0", 1) + ", " + result("18446744073709551615", 1) + "]"),
+                HasSubstr("holds 2 of the frames 0 to 18446744073709551615; more than half of them"));
     EXPECT_THAT(refusal("[{\"frame_id\": 0, \"instances\": []}]"),
                 HasSubstr("nobody is seen in any of its 1 frames"));
     EXPECT_THAT(refusal("[{\"frame_id\": 0, \"instances\": [{}]}]"),
