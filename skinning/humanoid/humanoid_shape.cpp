@@ -164,9 +164,10 @@ Limb ShapeGuess::arm_of(int limb) const {
     for (size_t h = 2; h < chain.size() && hand == 0; ++h) {
         if (tree_.children(chain[h]).size() >= 3) hand = h;
     }
+    const bool has_fingers = hand > 0;
     const float whole = size_of(limb) - bone(limb);
     float best_cost = 0;
-    for (size_t h = 2; h < chain.size() && tree_.children(chain[hand]).size() < 3; ++h) {
+    for (size_t h = 2; h < chain.size() && !has_fingers; ++h) {
         const float cost = std::abs(reaches_[static_cast<size_t>(chain[h])] - 0.15f * whole);
         if (hand == 0 || cost < best_cost) {
             hand = h;

@@ -661,6 +661,24 @@ TEST(FindHumanoid, PairsTheLimbsWhoseBonesAreAlike) {
     }
 }
 
+// Twist bones beside the forearm are no fingers: the upper arm is no hand.
+TEST(FindHumanoid, FindsForearmsBesideTwistBonesByShape) {
+    std::vector<Bone> bones = with_a_long_head();
+    for (const char* arm : {"b1", "c1"}) {
+        const Vec3 place =
+            std::ranges::find(bones, std::string(arm), &Bone::name)->place + Vec3(0, 0.001f, 0);
+        for (const char* twist : {"_x", "_y"})
+            bones.push_back({.name = std::string(arm) + twist, .parent = arm, .place = place});
+    }
+    const HumanoidGuess guess = find_humanoid(skeleton_of(bones));
+    EXPECT_EQ(guess.refusal, "");
+    for (const H part : {H::left_upper_arm, H::left_lower_arm, H::left_hand, H::right_upper_arm,
+                         H::right_lower_arm, H::right_hand}) {
+        const auto bone = std::ranges::find(bones, std::optional(part), &Bone::part);
+        EXPECT_EQ(guess.map[part], bone - bones.begin()) << name_of(part);
+    }
+}
+
 TEST(FindHumanoid, RefusesAShapeThatTheSidesInItsNamesContradict) {
     std::vector<Bone> bones = with_a_long_head();
     for (Bone& bone : bones) {
