@@ -43,11 +43,12 @@ std::vector<double> row_of(const Json& body) {
     return row;
 }
 
-std::string id_of(const Json& body) {
+// Without a number a body is known by its place in the list of its frame.
+std::string id_of(const Json& body, size_t place) {
     for (const char* key : {"body_id", "id"}) {
         if (body.is_object() && body.contains(key)) return body[key].dump();
     }
-    return "";
+    return format("at place {}", place);
 }
 
 // Fills in the frames, for the names that `data` has.
@@ -60,9 +61,12 @@ KeypointData take_bodies(KeypointData data, const Json& frames) {
         std::vector<double> row(4 * data.points, 0);
         for (size_t i = 0; bodies && i < bodies->size(); ++i) {
             const Json& body = (*bodies)[i];
-            if (!first) first = id_of(body);
-            others += id_of(body) != *first;
-            if (id_of(body) != *first) continue;
+            const std::string id = id_of(body, i);
+            if (!first) first = id;
+            if (id != *first) {
+                ++others;
+                continue;
+            }
             row = row_of(body);
             if (row.size() != 4 * data.points)
                 throw Error(

@@ -81,6 +81,19 @@ TEST(BodiesJson, ReadsAzureKinect) {
                 Contains("several people: the body 3 is taken, as it comes first; 1 times there is another"));
 }
 
+TEST(BodiesJson, TakesTheFirstOfSeveralBodiesWithoutNumbers) {
+    const testing::TemporaryFolder folder;
+    Json json = file_of_kinect();
+    std::swap(json["frames"][1]["bodies"][0], json["frames"][1]["bodies"][1]);
+    for (Json& frame : json["frames"])
+        for (Json& body : frame["bodies"]) body.erase("body_id");
+    write_json(folder / "a.json", json);
+    const Motion motion = read_motion(folder / "a.json");
+    expect_the_person(motion);
+    EXPECT_THAT(motion.notes, Contains("several people: the body at place 0 is taken, as it comes first; 1 "
+                                       "times there is another"));
+}
+
 TEST(BodiesJson, RefusesBodiesOfAnotherForm) {
     const testing::TemporaryFolder folder;
     const auto refusal = [&](const Json& json) {
