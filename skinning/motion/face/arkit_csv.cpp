@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "skinning/motion/face/face_rows.h"
 #include "skinning/signal/time_code.h"
+#include "skinning/signal/time_columns.h"
 
 namespace chironomia {
 namespace {

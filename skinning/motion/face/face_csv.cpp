@@ -12,6 +12,7 @@
 #include "skinning/motion/face/face_rows.h"
 #include "skinning/motion/face/openface_csv.h"
 #include "skinning/motion/face/pyfeat_csv.h"
+#include "skinning/signal/time_columns.h"
 
 namespace chironomia {
 namespace {

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "skinning/signal/frame_rate.h"
 #include "skinning/signal/late_beginning.h"
+#include "skinning/signal/time_columns.h"
 
 namespace chironomia {
 namespace {
@@ -19,10 +20,6 @@ constexpr double kLongestGap = 60;            // [s] that may be bridged
 constexpr double kMostFramesPerRow = 20;      // else a few wrong times would fill the memory
 constexpr double kFreeFrames = 10000;         // that few rows may become, all the same
 
-const std::initializer_list<std::string_view> kSecondNames = {"timestamp", "time", "t", "seconds", "time_s"};
-const std::initializer_list<std::string_view> kMillisecondNames = {"timestamp_ms", "time_ms", "milliseconds"};
-const std::initializer_list<std::string_view> kFrameNames = {"frame", "frame_id", "frame_index", "index"};
-
 // What one step of the last digit is worth: 0.001 for "0.033".
 double last_digit(std::string_view cell) {
     if (cell.find_first_of("eE") != std::string_view::npos) return 0;
@@ -32,7 +29,7 @@ double last_digit(std::string_view cell) {
 
 RowTimes counted_times(const CsvTable& table, double fps) {
     RowTimes result;
-    const auto frame = find_column(table, kFrameNames);
+    const auto frame = find_frame_column(table);
     for (size_t n = 0; n < table.rows.size(); ++n) {
         const double number = frame ? finite_in(table, table.rows[n], *frame) : static_cast<double>(n);
         result.times.push_back(number / fps);
@@ -218,14 +215,6 @@ std::optional<std::string> bridged_note(const FaceTrack& track, const FaceRows& 
 
 }  // namespace
 
-bool is_time_column(std::string_view name) {
-    const std::string lower = to_lower(name);
-    for (const auto& names : {kSecondNames, kMillisecondNames, kFrameNames}) {
-        if (std::find(names.begin(), names.end(), lower) != names.end()) return true;
-    }
-    return false;
-}
-
 std::optional<std::vector<size_t>> find_group(const CsvTable& table,
                                               std::span<const std::string_view> names) {
     std::vector<size_t> columns;
@@ -257,10 +246,11 @@ float angle_in(const CsvTable& table, const CsvRow& row, size_t column, double m
 
 RowTimes row_times(const CsvTable& table, std::optional<double> fps) {
     if (fps) return counted_times(table, *fps);
-    if (const auto column = find_column(table, kSecondNames)) return written_times(table, *column, 1);
-    if (const auto column = find_column(table, kMillisecondNames)) return written_times(table, *column, 1e-3);
-    throw Error(format("{}: there is no column \"timestamp\" or \"time\"; set the rate with --motion-fps",
-                       table.where));
+    if (const auto time = find_time_column(table)) return written_times(table, time->column, time->unit);
+    throw Error(
+        format("{}: there is no column of times, such as \"timestamp\" or \"time_ms\"; set the rate with "
+               "--motion-fps",
+               table.where));
 }
 
 float intensity_in(const CsvTable& table, const CsvRow& row, size_t column, double scale) {

@@ -33,11 +33,10 @@ struct RowTimes {
     double resolution = 0;      // [s]
 };
 
-// The numbers of a column `timestamp`, `time`, `t`, `seconds` or `time_s` [s] or `timestamp_ms`, `time_ms` or
-// `milliseconds`. With `fps` the rows are that many in a second, counted by a column `frame` if there is one.
-// Throws Error if there is no such column and no `fps`, or a time is no finite number.
+// The numbers of the column of times (time_columns.h). With `fps` the rows are that many in a second, counted by the
+// column of frames if there is one. Throws Error if there is no such column and no `fps`, or a time is no finite
+// number.
 RowTimes row_times(const CsvTable& table, std::optional<double> fps);
-bool is_time_column(std::string_view name);
 
 // Columns that belong together, in any case: all of them, or none. Throws Error if some are missing.
 std::optional<std::vector<size_t>> find_group(const CsvTable& table, std::span<const std::string_view> names);

@@ -9,6 +9,7 @@
 #include "core/files/csv_table.h"
 #include "core/text.h"
 #include "skinning/motion/face/face_rows.h"
+#include "skinning/signal/time_columns.h"
 
 namespace chironomia {
 namespace {

@@ -10,6 +10,7 @@
 #include "core/files/csv_table.h"
 #include "core/text.h"
 #include "skinning/motion/points/even_frames.h"
+#include "skinning/signal/time_columns.h"
 
 namespace chironomia {
 namespace {
@@ -135,28 +136,17 @@ void append_point(KeypointData& data, const CsvTable& table, const CsvRow& row,
                                              : 1);
 }
 
-const std::initializer_list<std::string_view> kTimeNames = {"time", "t", "timestamp", "seconds", "time_s"};
-const std::initializer_list<std::string_view> kTimeNamesOfTools = {
-    "time_ms",      "time_us",        "time_usec",    "time_sec",     "time_seconds",  "time (seconds)",
-    "time (s)",     "time [s]",       "time (ms)",    "time [ms]",    "timestamp_s",   "timestamp_ms",
-    "timestamp_us", "timestamp_usec", "timestamp_ns", "relativetime", "relative_time", "timestamp (ms)"};
-const std::initializer_list<std::string_view> kFrameNames = {"frame", "frame_id", "frame_index", "index"};
-
 const std::initializer_list<std::string_view> kNameNames = {"name", "point", "keypoint", "joint", "landmark"};
 const std::initializer_list<std::string_view> kPersonNames = {
     "person", "person_id", "subject", "subject_id", "body", "body_id", "track", "track_id", "id"};
-
-std::optional<size_t> find_time(const CsvTable& table) {
-    const auto usual = find_column(table, kTimeNames);
-    return usual ? usual : find_column(table, kTimeNamesOfTools);
-}
 
 // Whether rows of several people stand in a table: two of the same frame or time, or, without such a column, rows of
 // one person before and behind those of another. A number that a tracker changes on the way is no other person, but one
 // of a person or subject is.
 bool is_crowded(const CsvTable& table, size_t person) {
-    const auto number = find_column(table, kFrameNames), name = find_column(table, kNameNames);
-    const auto moment = number ? number : find_time(table);
+    const auto number = find_frame_column(table), name = find_column(table, kNameNames);
+    const auto time = find_time_column(table);
+    const auto moment = number ? number : time ? std::optional(time->column) : std::nullopt;
     std::set<std::pair<std::string_view, std::string_view>> moments;
     std::set<std::string_view> people;
     bool comes_back = false, comes_twice = false;
@@ -185,7 +175,8 @@ std::optional<std::string> keep_first_person(CsvTable& table) {
 }
 
 void take_timing(KeypointData& data, const CsvTable& table, const std::vector<const CsvRow*>& frame_rows) {
-    const auto time = find_time(table), number = find_column(table, kFrameNames);
+    const auto time = find_time_column(table);
+    const auto number = find_frame_column(table);
     const auto where = [&](size_t t) { return table.at(*frame_rows[t]); };
     const auto numbers_in = [&](size_t column) {
         std::vector<double> numbers;
@@ -193,7 +184,7 @@ void take_timing(KeypointData& data, const CsvTable& table, const std::vector<co
         return numbers;
     };
     if (time) {
-        even_out_times(data, numbers_in(*time), where);
+        even_out_times(data, numbers_in(time->column), where);
     } else if (number) {
         fill_missing_numbers(data, numbers_in(*number), where);
     }
@@ -266,7 +257,7 @@ struct LongColumns {
 };
 
 std::optional<LongColumns> find_long_columns(const CsvTable& table) {
-    const auto frame = find_column(table, kFrameNames);
+    const auto frame = find_frame_column(table);
     const auto name = find_column(table, kNameNames);
     const auto x = find_column(table, {"x"}), y = find_column(table, {"y"}), z = find_column(table, {"z"});
     if (!frame || !name || !x || !y) return std::nullopt;

@@ -69,8 +69,9 @@ TEST_F(PyFeatFile, ShowsLikelihoodsAsIntensities) {
                 Contains("Py-Feat CSV: 3 action units, how likely each is shown as its intensity"));
     EXPECT_THAT(motion.notes, Contains("units that are not shown, left out: AU11"));
     EXPECT_THAT(motion.notes, Contains(HasSubstr("head: left out")));
-    EXPECT_EQ(refusal(table),
-              "a.csv: there is no column \"timestamp\" or \"time\"; set the rate with --motion-fps");
+    EXPECT_EQ(
+        refusal(table),
+        "a.csv: there is no column of times, such as \"timestamp\" or \"time_ms\"; set the rate with --motion-fps");
     EXPECT_THAT(refusal("FaceScore,AU12,frame\n0.9,2,0\n0.9,1,1\n", 25),
                 HasSubstr("a.csv:2: column \"AU12\": 2 does not lie between 0 and 1"));
 }
@@ -230,7 +231,7 @@ TEST_F(OpenFaceFile, RefusesWhatOpenFaceWouldNotWrite) {
         {"timestamp,AU12_r,AU12_r\n0,0,0\n", "a.csv: the column \"AU12_r\" comes twice"},
         {"timestamp,AU12_r,AU012_r\n0,0,0\n", "a.csv: the column \"AU012_r\" holds action unit 12 again"},
         {"frame,AU12_r\n1,0\n2,0\n",
-         "a.csv: there is no column \"timestamp\" or \"time\"; set the rate with --motion-fps"},
+         "a.csv: there is no column of times, such as \"timestamp\" or \"time_ms\"; set the rate with --motion-fps"},
         {"timestamp,AU12_r\n0,1\n", "a.csv: 1 row, and a rate takes 2; set it with --motion-fps"},
         {"timestamp,AU12_c\n0,1\n0.04,1\n",
          "a.csv: no column holds an intensity (AU01_r), the head (pose_Rx) or the gaze (gaze_0_x); export one of them"},
@@ -551,6 +552,15 @@ TEST_F(ArkitFile, TakesTheRateOfTimeCodesByHand) {
                                             "--motion-fps"));
 }
 
+TEST_F(ArkitFile, KnowsTheUnitsInTheNamesOfTimes) {
+    for (const auto& [name, step] :
+         {std::pair("Time (Seconds)", "0.04"), {"timestamp_us", "40000"}, {"Time [ms]", "40"}}) {
+        const Motion motion =
+            read(format("{},eyeBlinkLeft,jawOpen,cheekPuff\n0,0,0,0\n{},0,1,0\n", name, step));
+        EXPECT_EQ(motion.fps, 25) << name;
+    }
+}
+
 TEST_F(ArkitFile, RefusesWhatCannotBeMeant) {
     const std::string header = "time,eyeBlinkLeft,jawOpen,cheekPuff";
     const std::map<std::string, std::string> refusals = {
@@ -562,7 +572,7 @@ TEST_F(ArkitFile, RefusesWhatCannotBeMeant) {
         {header + ",HeadYaw,HeadPitch,HeadRoll\n0,0,0,0,0,30,0\n0.1,0,0,0,0,0,0\n",
          "a.csv:2: column \"HeadPitch\": 30 does not lie between -3.2 and 3.2; radians are expected"},
         {"eyeBlinkLeft,jawOpen,cheekPuff\n0,0,0\n",
-         "a.csv: there is no column \"timestamp\" or \"time\"; set the rate with --motion-fps"},
+         "a.csv: there is no column of times, such as \"timestamp\" or \"time_ms\"; set the rate with --motion-fps"},
         {"Timecode,eyeBlinkLeft,jawOpen,cheekPuff\nlate,0,0,0\n",
          "a.csv:2: column \"Timecode\": \"late\" is no time code; HH:MM:SS:FF.fff is expected"},
         {header + ",BlendshapeCount\n0,0,0,0,0\n0.1,0,0,0,0\n",
