@@ -30,10 +30,10 @@ std::string show_number(double number, Show show) {
 }
 
 std::string show_cell(const Cell& cell, Show show) {
-    // A minus that rounding left of nothing.
-    constexpr double kNothing = 1e-12;
     if (!cell.number) return cell.text.empty() ? "–" : cell.text;
-    return show_number(std::abs(*cell.number) < kNothing ? 0 : *cell.number, show);
+    const std::string shown = show_number(*cell.number, show);
+    const bool is_nothing = shown.starts_with('-') && shown.find_first_of("123456789") == std::string::npos;
+    return is_nothing ? shown.substr(1) : shown;
 }
 
 bool is_low(const Column& column) {

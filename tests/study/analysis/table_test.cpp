@@ -46,6 +46,13 @@ TEST(Table, PeopleSeeAnIntervalAsOne) {
     EXPECT_EQ(to_text(part_of(sample(), "q2")), "name   n  mean  95 %     p\nc<d_e  1  2.00     –  .250\n");
 }
 
+// What rounds to nothing has no sign.
+TEST(Table, PeopleSeeNoMinusBeforeNothing) {
+    Table table = sample();
+    for (std::size_t c = 3; c < 6; ++c) table.rows[0][c] = Cell(c == 5 ? -0.005001 : -0.003);
+    EXPECT_THAT(show(table).rows[0], ElementsAre("q1", "a, \"b\"", "12", "0.00", "[0.00, -0.01]", "< .001"));
+}
+
 TEST(Table, HtmlAndLatexEscapeTexts) {
     EXPECT_THAT(to_html(sample()), HasSubstr("<td>c&lt;d_e</td><td class=\"n\">1</td>"));
     const std::string latex = to_latex(sample(), "t-strict");
