@@ -175,9 +175,8 @@ FeatureTrack log_mel_400(const Audio& sound) {
     const Audio speech = bring_to_rate(sound, kFeatureRate);
     FrameSpectrum spectrum({.window = 400, .length = 512});
     if (speech.length() < spectrum.shape().length) {
-        throw Error(
-            format("the sound has {} samples at 16 kHz, a frame of log_mel_400 needs 512; use a longer one",
-                   speech.length()));
+        throw Error(format("the sound lasts {:.3f} s, its spectrum takes 0.032 s or more; give a longer one",
+                           sound.duration()));
     }
     const MelBank bank({.bands = kBands, .lowest = 125, .highest = 7500, .even_area = false}, kFeatureRate,
                        512);
@@ -198,8 +197,8 @@ FeatureTrack log_mel_512(const Audio& sound) {
     constexpr std::size_t kBands = 128, kHop = 512, kLength = 2048;
     const Audio speech = bring_to_rate(sound, sound.rate);
     if (speech.length() < 2)
-        throw Error(
-            format("the sound has {} samples, log_mel_512 needs 2; use a longer one", speech.length()));
+        throw Error(format("the sound has {} samples, its spectrum takes 2 or more; give a longer one",
+                           speech.length()));
     const std::vector<float> samples = mirrored(speech.samples, kLength / 2);
     FrameSpectrum spectrum({.window = kLength, .length = kLength});
     const MelBank bank({.bands = kBands, .highest = speech.rate / 2.0}, speech.rate, kLength);

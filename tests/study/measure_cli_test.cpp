@@ -368,6 +368,12 @@ TEST_F(Measure, FindsBeatsOfAMotionOnThoseOfASound) {
     EXPECT_THAT(
         run_chironomia({"measure", write("a.h5", motion), "--audio", (folder_ / "clicks.wav").string()}).out,
         HasSubstr("Beat alignment (BC)"));
+    const std::string click = (folder_ / "click.wav").string();
+    write_wav(click, {.rate = 16000, .channels = 1, .samples = std::vector<float>(320, 0)});
+    EXPECT_THAT(
+        refusal({write("a.h5", motion), "--audio", click}, 3),
+        HasSubstr(
+            "click.wav: the sound lasts 0.020 s, its spectrum takes 0.032 s or more; give a longer one"));
     // The wrist, which alone moves, is lost in single frames, far from where it turns back.
     for (const size_t t : {60u, 121u, 182u, 239u, 300u, 422u}) motion.keypoints->confidence[4 * t + 3] = 0;
     const Json lost = alignment(0);

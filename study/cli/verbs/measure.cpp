@@ -114,6 +114,15 @@ void warn_of_unpaired(const fs::path& folder, const fs::path& reference,
                  reference.string(), join(shown))});
 }
 
+void measure_beats_of(const fs::path& sound, const Motion& motion, MotionMeasures& measures) {
+    const Audio audio = read_audio(sound);
+    try {
+        measure_beats(motion, audio, measures);
+    } catch (const Error& fault) {
+        throw Error(format("{}: {}", sound.string(), fault.what()));
+    }
+}
+
 // Of each folder the means over its motions, and all their poses together.
 std::vector<MotionMeasures> totals_of(const MeasureCommand& command, const std::vector<NamedMotion>& files,
                                       const std::vector<MotionMeasures>& all,
@@ -164,8 +173,7 @@ int run(const MeasureCommand& command) {
                 clouds[each.given].add(motions[i], reference);
         }
         if (partner) measure_pair(motions[i], *partner, all[i]);
-        if (command.audio)
-            measure_beats(motions[i], read_audio(partner_of(sounds, *command.audio, each)), all[i]);
+        if (command.audio) measure_beats_of(partner_of(sounds, *command.audio, each), motions[i], all[i]);
     }
     const std::vector<MotionMeasures> totals = totals_of(command, files, all, clouds);
     all.insert(all.end(), totals.begin(), totals.end());
