@@ -6,17 +6,13 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "raster/images/image_file.h"
 
 namespace chironomia {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kDigits = "0123456789";
-
-bool is_image_name(const fs::path& file) {
-    const std::string ending = to_lower(file.extension().string());
-    return ending == ".png" || ending == ".exr";
-}
 
 [[noreturn]] void refuse_pattern(const fs::path& pattern, std::string_view problem) {
     throw Error(format("{}: {}; write it like frames/%05d.png", pattern.string(), problem));
@@ -73,7 +69,7 @@ FrameStack parse_stack_pattern(const fs::path& pattern) {
         }
     }
     if (!numbered) refuse_pattern(pattern, "it has no number for the frames");
-    if (!is_image_name(stack.after.empty() ? fs::path("x") : fs::path("x" + stack.after)))
+    if (!has_image_name(stack.after.empty() ? fs::path("x") : fs::path("x" + stack.after)))
         refuse_pattern(pattern, "frames are .png or .exr");
     return stack;
 }
@@ -81,7 +77,7 @@ FrameStack parse_stack_pattern(const fs::path& pattern) {
 std::vector<fs::path> list_stack(const fs::path& folder) {
     std::map<size_t, fs::path> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-        if (!is_image_name(entry.path())) continue;
+        if (!has_image_name(entry.path())) continue;
         const std::optional<size_t> number = number_of(entry.path());
         if (!number) continue;
         const auto [place, added] = files.emplace(*number, entry.path());

@@ -54,17 +54,6 @@ std::vector<std::size_t> cycle_of(std::size_t n, Random& random) {
 
 using ClipCorrelations = std::vector<std::optional<double>>;
 
-// The mean over clips that count, as often as they do.
-std::optional<double> mean_correlation(const ClipCorrelations& clips, std::span<const double> weights) {
-    ChunkScores scores;
-    for (std::size_t i = 0; i < clips.size(); ++i) {
-        if (!clips[i]) continue;
-        scores.sum += weights[i] * *clips[i];
-        scores.count += weights[i];
-    }
-    return scores.mean();
-}
-
 // The mean correlation with the sources of others, for every shuffle that has one; sorted.
 std::vector<double> shuffled_correlations(std::span<const TimedClip> clips, const Resampling& resampling) {
     Random random(resampling.seed);
@@ -110,8 +99,7 @@ StrokeTiming stroke_timing(std::span<const TimedClip> clips, const Resampling& r
     StrokeTiming timing;
     timing.undefined = static_cast<std::size_t>(std::count(own.begin(), own.end(), std::nullopt));
     timing.correlation = bootstrap(
-        clips.size(), [&](std::span<const double> weights) { return mean_correlation(own, weights); },
-        resampling);
+        clips.size(), [&](std::span<const double> weights) { return mean_of(own, weights); }, resampling);
     if (clips.size() < 2 || !timing.correlation.value) return timing;
     const std::vector<double> shuffled = shuffled_correlations(clips, resampling);
     if (shuffled.empty()) return timing;

@@ -66,17 +66,6 @@ PairSums weighed(const std::vector<PairSums>& sums, std::span<const double> weig
     return all;
 }
 
-std::optional<double> mean_of(const std::vector<std::optional<double>>& values,
-                              std::span<const double> weights) {
-    ChunkScores mean;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!values[i]) continue;
-        mean.sum += weights[i] * *values[i];
-        mean.count += weights[i];
-    }
-    return mean.mean();
-}
-
 // A metric of one feature as a statistic of how often each item counts.
 WeightedStatistic pooled(const FeatureData& data, Statistic statistic) {
     return [&data, statistic = std::move(statistic)](std::span<const double> weights) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "study/measure/chunk_scores.h"
 #include "study/measure/descriptive.h"
 #include "study/measure/likeness.h"
 #include "study/measure/vectors/frechet.h"
@@ -99,17 +100,7 @@ std::map<std::string, TargetStyle> targets_of(const PredictedBodies& bodies) {
 
 Bootstrapped mean_of_clips(const std::vector<std::optional<double>>& values, const Resampling& resampling) {
     return bootstrap(
-        values.size(),
-        [&](std::span<const double> weights) -> std::optional<double> {
-            double sum = 0, count = 0;
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                if (!values[i]) continue;
-                sum += weights[i] * *values[i];
-                count += weights[i];
-            }
-            return count > 0 ? std::optional(sum / count) : std::nullopt;
-        },
-        resampling);
+        values.size(), [&](std::span<const double> weights) { return mean_of(values, weights); }, resampling);
 }
 
 void append_poses(Vectors& all, const Vectors& more) {

@@ -193,6 +193,12 @@ std::string Place::to_text() const {
     return place_in(source.text, node.at, source.name);
 }
 
+std::optional<std::string> find_attribute(const XmlNode& node, std::string_view name) {
+    for (const XmlAttribute& attribute : node.attributes)
+        if (attribute.name == name) return attribute.value;
+    return std::nullopt;
+}
+
 XmlNode parse_xml(const XmlSource& source) {
     refuse_unknown_entities(source);
     pugi::xml_document document;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,9 @@ struct XmlNode {
 
     bool is_text() const { return name.empty(); }
 };
+
+// The value of an attribute, or nothing.
+std::optional<std::string> find_attribute(const XmlNode& node, std::string_view name);
 
 // A document, and the name and text that its messages refer to.
 struct XmlSource {

@@ -14,12 +14,6 @@
 namespace chironomia {
 namespace {
 
-std::optional<std::string> find_attribute(const XmlNode& node, std::string_view name) {
-    for (const XmlAttribute& attribute : node.attributes)
-        if (attribute.name == name) return attribute.value;
-    return std::nullopt;
-}
-
 class ElanReader {
   public:
     explicit ElanReader(const XmlSource& source) : source_(source), root_(parse_xml(source)) {}
