@@ -55,8 +55,8 @@ std::string show_p(double p);  // "< .001", ".042"
 
 // RFC 4180 with a header; numbers with all digits and a point whatever the locale. A text that a spreadsheet
 // would run as a formula (it begins with = + - @, a tab or a return, and is no number) has a ' before it.
-// Each row begins with `before`, which are the values of `before_columns`.
 std::string csv_line(const std::vector<std::string>& fields);
+// `before` are the names of columns that stand before those of the table, and in rows their values.
 std::string csv_header(const Table& table, const std::vector<std::string>& before);
 std::string csv_rows(const Table& table, const std::vector<std::string>& before);
 

@@ -48,9 +48,10 @@ struct StudyState {
 };
 
 // Writes
-//   out/public/   index.html, player.js, style.css, pages.json, clips/<token>.mp4: all that a participant can reach
-//   out/private/  key.json (which video is what), plan.json (as used), recordings.json (how each video was made) and
-//                 manifest.json (SHA-256 of every input and output)
+//   out/public/   index.html with its scripts and style, pages.json, clips/<token>.mp4: all that a participant can
+//                 reach
+//   out/private/  key.json (which video is what), plan.json (as used), recordings.json (how each video was made),
+//                 report.html, and manifest.json (SHA-256 of every input and output)
 // The same plan, inputs, seed and program give the same bytes.
 //
 // While it is being built the study has no public/: finished videos wait in private/work/ under the hash of

@@ -48,7 +48,7 @@ struct FixedFeatures {
 
 // One arm at one moment; without more it hangs. Gesture space of an arm: x outward from the midline (the
 // arm's own side), y up from the height of the hanging elbow, z forward from the shoulders; in lengths of the
-// whole arm. The sectors of McNeill's diagram are named points of it (sector.h).
+// whole arm. The sectors of McNeill's diagram are named points of it (sectors.h).
 struct ArmPose {
     Vec3 wrist{0.52f, -0.44f, 0.13f};  // gesture space [arm lengths]
     Vec3 palm{-1, 0, 0};               // unit, gesture space: where the palm faces

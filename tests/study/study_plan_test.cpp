@@ -742,7 +742,6 @@ TEST_F(StudyPlan, CallsVideosAsTheAnswersOfThePresetDo) {
 // A preset knows nothing of conditions and clips; with them it is a plan.
 TEST_F(StudyPlan, HasAPlanForEveryPreset) {
     const Json three = {"ours", "baseline", {{"name", "still"}, {"from", "ours"}, {"by", "frozen"}}};
-    EXPECT_THAT(presets(), SizeIs(21));
     for (const Preset& preset : presets()) {
         Json json = {{"preset", preset.name},
                      {"conditions", sample_plan()["conditions"]},

@@ -25,7 +25,7 @@ struct TrackedFace {
 };
 
 // What a tracker writes. Without noise what the face does; with it angles with a standard deviation of 0.5
-// degrees, units with 0.15, and frames that are lost, all of whose numbers are 0 (make_noise.h).
+// degrees, units with 0.15, and frames that are lost, all of whose numbers are 0 (noise.h).
 TrackedFace track_face(const FaceTrack& face, std::span<const int> units, bool noise, Random random);
 
 // As the corpora were cleaned: the median of 7 frames, lines over what was lost (synth/features/contour.h),
