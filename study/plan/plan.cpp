@@ -44,7 +44,8 @@ void require_texts_of_language(const JsonValue& whole, const std::string& langua
 fs::path find_path(const fs::path& folder, const fs::path& written) {
     fs::path found = folder.empty() || fs::exists(folder) ? folder : fs::absolute(folder);
     for (const fs::path& name : written) {
-        fs::path next = name == ".." && !fs::exists(found) ? found.parent_path() : found / name;
+        const bool leaves_new_folder = name == ".." && !found.empty() && !fs::exists(found);
+        fs::path next = leaves_new_folder ? found.parent_path() : found / name;
         if (std::error_code ignored; !fs::exists(next)) {
             const std::string wanted = composed(name.string());
             for (const auto& entry : fs::directory_iterator(found.empty() ? "." : found, ignored)) {

@@ -71,6 +71,21 @@ void require_translated(const JsonValue& plan, const JsonValue& language, const 
                            language.shown(), join(lacking)));
 }
 
+// Throws Error where the study is about the person on the right, and texts of the preset speak of the one on the left.
+void require_texts_of_side(const JsonValue& plan, const Json& preset) {
+    const auto render = plan.find("render");
+    const auto side = render && render->json().is_object() ? render->find("partner_side") : std::nullopt;
+    if (!side || side->json() != Json("left")) return;
+    for (const char* key : {"instructions", "questions"}) {
+        const bool speaks_of_left = preset.value(key, Json()).dump().find("on the left") != std::string::npos;
+        if (speaks_of_left && !plan.find(key))
+            side->refuse(
+                format("is \"left\", so the study is about the person on the right, and the preset's {} "
+                       "speak of the one on the left; write the plan's own",
+                       key));
+    }
+}
+
 std::set<std::string, std::less<>> sentences_of_presets() {
     std::set<std::string, std::less<>> texts;
     for (const Preset& preset : presets()) add_sentences(preset.plan, texts);
@@ -117,6 +132,7 @@ Json with_preset(const Json& plan, const std::string& file) {
         require_translated(whole, *language, merged, translation);
         merge(merged, translation);
     }
+    require_texts_of_side(whole, merged);
     merge(merged, plan);
     return merged;
 }

@@ -655,6 +655,32 @@ TEST_F(StudyPlan, FindsFilesWhoseAccentsAreWrittenOtherwise) {
     EXPECT_EQ(read_with({{"clips", clips}}).clips[1].motions[0], folder_ / "Zo\u00e9/caf\u00e9.bvh");
 }
 
+// The folder of a plan that is named alone is the current one, which has no parent in its name.
+TEST_F(StudyPlan, FindsFilesBesideTheFolderOfAPlanThatIsNamedAlone) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::create_directory(folder_ / "plans");
+    Json clips = sample_plan()["clips"];
+    for (Json& clip : clips) {
+        for (Json& motion : clip["motion"]) motion = "../" + motion.get<std::string>();
+        if (clip.contains("audio")) clip["audio"] = "../" + clip["audio"].get<std::string>();
+    }
+    Json plan = sample_plan();
+    plan["clips"] = clips;
+    write_json(folder_ / "plans/plan.json", plan);
+    std::filesystem::current_path(folder_ / "plans");
+    const auto back = std::shared_ptr<void>(nullptr, [&](void*) { std::filesystem::current_path(before); });
+    EXPECT_EQ(read_plan("plan.json").clips[1].motions[0], std::filesystem::path("../ours/c2.bvh"));
+}
+
+// GENEA's question is about the person on the left.
+TEST_F(StudyPlan, RefusesTextsOfAPresetThatSpeakOfTheOtherSide) {
+    const Json left = {{"preset", "genea-2023-interlocutor"}, {"render", {{"partner_side", "left"}}}};
+    EXPECT_THAT(
+        refusal_with(left),
+        HasSubstr("plan.json: render.partner_side: is \"left\", so the study is about the person on the "
+                  "right, and the preset's instructions speak of the one on the left; write the plan's own"));
+}
+
 TEST_F(StudyPlan, ShowsAllClipsWhereThePresetHasMorePages) {
     const Plan plan = read_with({{"preset", "realism-2025"}});
     EXPECT_EQ(plan.participants.pages_each, std::nullopt);
