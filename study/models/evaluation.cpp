@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <utility>
 
 #include "core/error.h"
@@ -92,6 +93,33 @@ WeightedStatistic distance_of(const FeatureData& data) {
                std::span<const double> weights) { return std::optional(distance.at(weights)); };
 }
 
+// By item: which record it is of. Both people of a dyad, "d03:0" and "d03:1", are of one, as they act on each other.
+std::vector<std::size_t> records_of(const Predictions& predictions) {
+    std::map<std::string, std::size_t> numbers;
+    std::vector<std::size_t> records;
+    for (const PredictedItem& item : predictions.items) {
+        const std::string record = item.partner.empty() ? item.id : item.id.substr(0, item.id.rfind(':'));
+        records.push_back(numbers.emplace(record, numbers.size()).first->second);
+    }
+    return records;
+}
+
+std::size_t number_of_records(const Predictions& predictions) {
+    const std::vector<std::size_t> records = records_of(predictions);
+    return *std::ranges::max_element(records) + 1;
+}
+
+// Whole records are drawn.
+Bootstrapped bootstrap_records(const std::vector<std::size_t>& records, const WeightedStatistic& statistic,
+                               const Resampling& resampling) {
+    const auto of_items = [&](std::span<const double> weights) {
+        std::vector<double> own(records.size());
+        std::ranges::transform(records, own.begin(), [&](std::size_t record) { return weights[record]; });
+        return statistic(own);
+    };
+    return bootstrap(*std::ranges::max_element(records) + 1, of_items, resampling);
+}
+
 struct NamedStatistic {
     const char* metric;
     WeightedStatistic of;
@@ -170,6 +198,7 @@ std::vector<bool> shared_correlations(const std::vector<Predictions>& models,
 void score_features(SystemScores& system, const Predictions& predictions, const std::vector<bool>& correlated,
                     const EvaluationOptions& options) {
     const std::vector<std::string> summed = {"mae", "rmse", "pcc", "ks"};
+    const std::vector<std::size_t> records = records_of(predictions);
     std::vector<FeatureData> data;
     for (std::size_t f = 0; f < predictions.features.size(); ++f)
         data.push_back(data_of(predictions, f, options.activation));
@@ -178,7 +207,7 @@ void score_features(SystemScores& system, const Predictions& predictions, const 
         FeatureScores feature{.feature = predictions.features[f]};
         for (NamedStatistic& statistic : statistics_of(data[f], is_unit(feature.feature))) {
             feature.scores.push_back(
-                {statistic.metric, bootstrap(system.items, statistic.of, options.resampling)});
+                {statistic.metric, bootstrap_records(records, statistic.of, options.resampling)});
             const auto found = std::find(summed.begin(), summed.end(), statistic.metric);
             const bool counts = correlated[f] || std::string_view(statistic.metric) != "pcc";
             if (found != summed.end() && counts)
@@ -191,7 +220,7 @@ void score_features(SystemScores& system, const Predictions& predictions, const 
     }
     for (std::size_t m = 0; m < summed.size(); ++m) {
         system.overall.push_back(
-            {summed[m], bootstrap(system.items, mean_over(std::move(by_metric[m])), options.resampling)});
+            {summed[m], bootstrap_records(records, mean_over(std::move(by_metric[m])), options.resampling)});
     }
 }
 
@@ -240,23 +269,21 @@ std::vector<PairMetric> pair_metrics(const Predictions& predictions, Rows rows,
     return metrics;
 }
 
+//   records   of each item
 PairScores score_pairs(const std::vector<PairMetric>& metrics, const std::vector<PairMetric>* people,
-                       const Resampling& resampling) {
+                       const std::vector<std::size_t>& records, const Resampling& resampling) {
     PairScores scores;
     for (std::size_t m = 0; m < metrics.size(); ++m) {
         const PairMetric& metric = metrics[m];
-        const std::size_t items = metric.items.size();
-        scores.scores.push_back(
-            {metric.metric,
-             bootstrap(
-                 items, [&](std::span<const double> weights) { return metric.at(weights); }, resampling)});
+        const auto of = [&](std::span<const double> weights) { return metric.at(weights); };
+        scores.scores.push_back({metric.metric, bootstrap_records(records, of, resampling)});
         if (!people) continue;
         const PairMetric& theirs = (*people)[m];
         const auto gap = [&](std::span<const double> weights) -> std::optional<double> {
             const auto ours = metric.at(weights), real = theirs.at(weights);
             return ours && real ? std::optional(*ours - *real) : std::nullopt;
         };
-        scores.gaps.push_back({metric.metric, bootstrap(items, gap, resampling)});
+        scores.gaps.push_back({metric.metric, bootstrap_records(records, gap, resampling)});
     }
     return scores;
 }
@@ -321,7 +348,7 @@ void check_same_records(const Predictions& first, const Predictions& other) {
 std::vector<std::string> notes_on(const Evaluation& evaluation) {
     std::vector<std::string> notes;
     const SystemScores& first = evaluation.systems.front();
-    if (first.items < 2) notes.push_back("one record alone: there are no intervals");
+    if (first.records < 2) notes.push_back("one record alone: there are no intervals");
     if (first.pair && !first.pair->scores[0].result.value)
         notes.push_back("TLCC: no record has 8 s in which both people's smiles vary");
     if (first.pair && !first.pair->scores[1].result.value) notes.push_back("DTW: no record is 60 s long");
@@ -352,16 +379,22 @@ Evaluation evaluate(const std::vector<Predictions>& models, const EvaluationOpti
     std::vector<PairMetric> people;
     if (pairs) {
         people = pair_metrics(first, &PredictedItem::truth, options);
-        evaluation.systems.push_back({.model = "people", .items = first.items.size(), .frames = frames});
-        evaluation.systems.back().pair = score_pairs(people, nullptr, options.resampling);
+        evaluation.systems.push_back({.model = "people",
+                                      .items = first.items.size(),
+                                      .records = number_of_records(first),
+                                      .frames = frames});
+        evaluation.systems.back().pair = score_pairs(people, nullptr, records_of(first), options.resampling);
     }
     for (std::size_t m = 0; m < models.size(); ++m) {
         const Predictions &model = models[m], &own = owns[m];
-        SystemScores system{.model = model.model, .items = own.items.size(), .frames = frames};
+        SystemScores system{.model = model.model,
+                            .items = own.items.size(),
+                            .records = number_of_records(own),
+                            .frames = frames};
         score_features(system, own, correlated, options);
         if (pairs) {
             system.pair = score_pairs(pair_metrics(own, &PredictedItem::prediction, options), &people,
-                                      options.resampling);
+                                      records_of(own), options.resampling);
         }
         system.poses = score_poses(own, options.resampling);
         if (has_transfers(model))

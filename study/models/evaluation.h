@@ -48,6 +48,7 @@ struct PairScores {
 struct SystemScores {
     std::string model;  // "amii"; "people" for what was recorded, which has a pair alone
     std::size_t items = 0;
+    std::size_t records = 0;  // that the items are of; a dyad is one of two items
     std::size_t frames = 0;
     // Means over features of mae, rmse and ks, and of pcc over those of which all systems have one.
     std::vector<MetricScore> overall;

@@ -137,7 +137,26 @@ TEST(Evaluate, SaysWhatShortRecordsLeaveOut) {
         for (auto* rows : {&item.truth, &item.prediction, &item.partner}) rows->resize(100);
     }
     EXPECT_THAT(evaluate({brief}).notes,
-                ElementsAre(HasSubstr("TLCC: no record has 8 s"), HasSubstr("DTW: no record is 60 s long")));
+                ElementsAre("one record alone: there are no intervals", HasSubstr("TLCC: no record has 8 s"),
+                            HasSubstr("DTW: no record is 60 s long")));
+}
+
+// The people of a dyad act on each other: both are drawn, or none. Here dyads are alike, and their people are not.
+TEST(Evaluate, DrawsBothPeopleOfADyad) {
+    Predictions all = sample_dyad("amii", 0);
+    for (float& value : all.items[1].prediction) value += 0.2f;
+    for (const std::size_t person : {0, 1}) {
+        all.items.push_back(all.items[person]);
+        all.items.back().id = format("d1:{}", person);
+    }
+    const Evaluation found = evaluate({all});
+    const SystemScores& system = found.systems[1];
+    EXPECT_EQ(system.items, 4u);
+    EXPECT_EQ(system.records, 2u);
+    const Bootstrapped& rmse = score(system.overall, "rmse");
+    EXPECT_NEAR(*rmse.value, 0.2 / std::sqrt(2), 1e-6);
+    EXPECT_NEAR(rmse.ci_95->low, *rmse.value, 1e-9);
+    EXPECT_NEAR(rmse.ci_95->high, *rmse.value, 1e-9);
 }
 
 TEST(Evaluate, RefusesModelsThatWereAskedAboutOtherRecords) {
