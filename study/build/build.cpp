@@ -179,14 +179,19 @@ void lay_out(const StudyDraft& draft, const std::vector<RecordedVideo>& recorded
     scratch.move_out("public", study.open());
 }
 
-std::vector<std::string> list_warnings(const StudyDraft& draft, const Video& video,
-                                       const RecordedVideo& recorded) {
-    std::vector<std::string> conditions, warnings;
+std::string conditions_of(const StudyDraft& draft, const Video& video) {
+    std::vector<std::string> conditions;
     for (const std::size_t condition : video.shows.conditions)
         conditions.push_back(draft.plan.conditions[condition].name);
+    return join(conditions, " and ");
+}
+
+std::vector<std::string> list_warnings(const StudyDraft& draft, const Video& video,
+                                       const RecordedVideo& recorded) {
+    std::vector<std::string> warnings;
     for (const std::string& warning : recorded.result.warnings) {
         warnings.push_back(format("clip \"{}\", {}: {}", draft.plan.clips[video.shows.clip].id,
-                                  join(conditions, " and "), warning));
+                                  conditions_of(draft, video), warning));
     }
     return warnings;
 }
@@ -197,6 +202,7 @@ std::vector<std::string> list_warnings(const StudyDraft& draft, const std::vecto
     std::map<std::string_view, const RecordedVideo*> by_recipe;
     for (std::size_t i = 0; i < recorded.size(); ++i) by_recipe.emplace(distinct[i].recipe, &recorded[i]);
     std::set<std::size_t> clips;
+    std::map<std::pair<std::size_t, std::string>, const Video*> first_alike;  // by clip and bytes
     std::vector<std::string> of_scripts, of_videos;
     for (const Video& video : draft.videos) {
         const auto found = by_recipe.find(video.recipe);
@@ -204,6 +210,12 @@ std::vector<std::string> list_warnings(const StudyDraft& draft, const std::vecto
         clips.insert(video.shows.clip);
         const std::vector<std::string> more = list_warnings(draft, video, *found->second);
         of_videos.insert(of_videos.end(), more.begin(), more.end());
+        const auto [first, is_new] =
+            first_alike.emplace(std::pair(video.shows.clip, found->second->sha256), &video);
+        if (is_new) continue;
+        of_videos.push_back(format("clip \"{}\": the videos of {} and of {} are the same, byte for byte",
+                                   draft.plan.clips[video.shows.clip].id,
+                                   conditions_of(draft, *first->second), conditions_of(draft, video)));
     }
     for (const ClipNote& note : draft.performed.notes)
         if (clips.contains(note.clip)) of_scripts.push_back(note.text);
@@ -292,8 +304,10 @@ std::vector<std::string> warnings_of_finished(const StudyDraft& draft, const fs:
     const Json json = read_json(file);
     const std::vector<JsonValue> notes = JsonValue(json, file.string()).items(draft.videos.size());
     std::vector<RecordedVideo> recorded(draft.videos.size());
-    for (std::size_t i = 0; i < recorded.size(); ++i)
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
         recorded[i].result.warnings = warnings_of_note(notes[i]);
+        recorded[i].sha256 = notes[i].at("sha256").text();
+    }
     return list_warnings(draft, draft.videos, recorded);
 }
 

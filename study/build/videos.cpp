@@ -325,7 +325,11 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
         const double shown = std::min(lengths[wish.clip], lengths[other[wish.clip]]);
         if (has_mismatch(plan))
             video.job.frames.last = static_cast<std::size_t>(shown * plan.render.fps.per_second() + 1e-6);
-        if (wish.notice) add_notice(plan, *wish.notice, shown, video.job);
+        try {
+            if (wish.notice) add_notice(plan, *wish.notice, shown, video.job);
+        } catch (const Error& fault) {
+            throw Error(format("clip \"{}\": {}", plan.clips[wish.clip].id, fault.what()));
+        }
         video.recipe = sha256(maker.recipe(video.job).dump());
         videos.push_back(std::move(video));
     }

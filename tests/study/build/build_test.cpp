@@ -339,7 +339,8 @@ TEST_F(BuildStudy, RefusesAnInstructionThatEndsAfterItsClip) {
     fake_.lengths = {{"ours/c1.bvh", 1.9}, {"ours/c2.bvh", 1.9}, {"base/c1.bvh", 1.9}, {"base/c2.bvh", 1.9}};
     const Plan read = plan();
     EXPECT_THAT(refusal_of([&] { draft_study(read, 1, fake_.maker()); }),
-                AllOf(HasSubstr("s from 0.500 s on, but the clip lasts 1.900 s; begin earlier or say less"),
+                AllOf(HasSubstr("clip \"c"),
+                      HasSubstr("s from 0.500 s on, but the clip lasts 1.900 s; begin earlier or say less"),
                       HasSubstr("\"kinds\" as [\"text\"]")));
 }
 

@@ -112,6 +112,18 @@ TEST_F(BuildShard, GivesTheWarningsOfOneMachineTogether) {
     EXPECT_EQ(warnings_of_finished(draft, folder_ / "study"), all);
 }
 
+// A motion that was copied under the name of another one.
+TEST_F(BuildShard, WarnsOfVideosThatNobodyCanTellApart) {
+    fs::copy_file(folder_ / "ours/c1.bvh", folder_ / "base/c1.bvh", fs::copy_options::overwrite_existing);
+    const std::vector<std::string> all = build().warnings;
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_THAT(all[0],
+                ::testing::MatchesRegex("clip \"c1\": the videos of (ours and of baseline|baseline and of "
+                                        "ours) are the same, byte for byte"));
+    const StudyDraft draft = draft_study(read_plan(folder_ / "plan.json"), 7, fake_.maker());
+    EXPECT_EQ(warnings_of_finished(draft, folder_ / "study"), all);
+}
+
 TEST_F(BuildShard, RecordsNothingTwice) {
     record({.number = 1, .count = 2});
     EXPECT_EQ(record({.number = 1, .count = 2}).recorded, 0u);
