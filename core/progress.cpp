@@ -51,6 +51,10 @@ bool was_interrupted() {
     return interrupted != 0;
 }
 
+void stop_if_interrupted() {
+    if (was_interrupted()) throw Interrupted();
+}
+
 Progress::Progress(std::string what, std::string unit, size_t total, bool quiet)
     : what_(std::move(what)),
       unit_(std::move(unit)),
@@ -65,7 +69,7 @@ Progress::~Progress() {
 }
 
 void Progress::step(size_t count) {
-    if (interrupted) throw Interrupted();
+    stop_if_interrupted();
     done_ += count;
     total_ = std::max(total_, done_);
     if (quiet_) return;

@@ -14,6 +14,8 @@ void watch_for_interrupts();
 
 // Whether one came since then; for work that ends well when it is interrupted.
 bool was_interrupted();
+// Throws Interrupted if one came: for long work that shows no progress.
+void stop_if_interrupted();
 
 class Progress {
   public:

@@ -113,7 +113,8 @@ Performed perform(const Speech& speech, const ExpressiveOptions& options) {
                                              .speech = speech,
                                              .speaker = options.speaker,
                                              .times = {.frames = frames, .fps = options.fps},
-                                             .seed = options.seed});
+                                             .seed = options.seed,
+                                             .partner = options.partner});
     return put_together(speech, options, std::move(behaviours), body);
 }
 

@@ -21,6 +21,7 @@ struct ExpressiveOptions {
     Variants variants;
     double fps = 30;  // of the motion, above 0
     std::uint64_t seed = 0;
+    double partner = 0;  // how far to the person's left stands whom they look at [rad], -0.8 to 0.8
 };
 
 // A motion and how it came about.

@@ -68,6 +68,10 @@ SynthesisJob job_of(const Plan& plan, const PlanClip& clip, const PlanCondition&
                      .voice = speaker_named(clip.voice).voice,
                      .fps = plan.render.fps.per_second(),
                      .seed = clip.seed};
+    // Where the other stands in that scene, of which people see more if both are not turned all the way (ours).
+    constexpr double kPartnerInDyad = 35;
+    if (clip.partner && plan.render.scene == "dyad")
+        job.partner_deg = plan.render.partner_on_left ? -kPartnerInDyad : kPartnerInDyad;
     if (condition.making == Making::manner) job.speaker = condition.speaker;
     if (condition.making == Making::style) job.learned = engine_of(clip, condition.style);
     if (!clip.audio.empty()) job.recording = clip.audio;

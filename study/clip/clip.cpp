@@ -177,6 +177,11 @@ PerformerMotions read_motions(const Performer& performer) {
 PerformerMotions read_motions(const Performer& performer, const ClipJob& job) {
     PerformerMotions motions = read_motions(performer);
     if (!job.sound_cut && !performer.voice_cut) motions.warnings = warn_of_late_beginnings(motions);
+    const MotionHints& hints = performer.hints;
+    if (motions.body && hints.fps && hints.fps_where_missing && motions.body->fps != *hints.fps)
+        motions.warnings.push_back(format(
+            "{}: it has {:g} frames/s of its own; {:g}, which is set once for all, is for motions that have none",
+            performer.motion.string(), motions.body->fps, *hints.fps));
     if (job.cut) cut(motions, performer, job);
     if (!performer.anchor) return motions;
     for (auto* motion : {&motions.body, &motions.face})

@@ -255,6 +255,7 @@ class ManifestReader {
 
     fs::path path_of(const JsonValue& value) const {
         fs::path path = folder_ / value.text();
+        if (fs::is_directory(path)) value.refuse(format("{} is a folder, a file is needed", path.string()));
         if (!fs::is_regular_file(path)) value.refuse(format("there is no file {}", path.string()));
         return path;
     }

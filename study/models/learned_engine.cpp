@@ -21,6 +21,7 @@
 #include "synth/features/speech_features.h"
 #include "synth/features/speech_units.h"
 #include "synth/learning.h"
+#include "synth/speech/channels.h"
 #include "synth/text/bert_encoder.h"
 
 namespace chironomia::study {
@@ -205,12 +206,42 @@ std::vector<float> seen(const fs::path& file, std::vector<std::string>& notes) {
     return rows;
 }
 
+// What lies beyond what the model has learned is held at its limit. In training that is one frame in fifty.
+void note_unlearned(const std::vector<float>& face, const Json& described, const fs::path& file,
+                    std::vector<std::string>& notes) {
+    constexpr double kMuch = 0.25;  // of the frames; ours
+    const Json &names = described.at("inputs"), &ranges = described.at("input_ranges");
+    for (std::size_t c = 0; c < DyadPerson::kFace; ++c) {
+        const Json& range = ranges.at(ranges.size() - DyadPerson::kFace + c);
+        const double low = range.at(0), high = range.at(1);
+        double outside = 0, frames = 0;
+        for (std::size_t i = c; i < face.size(); i += DyadPerson::kFace) {
+            outside += face[i] < low || face[i] > high ? 1 : 0;
+            ++frames;
+        }
+        if (outside <= kMuch * frames) continue;
+        notes.push_back(format(
+            "{}: {} lies outside what the model has learned, {:.3g} to {:.3g}, in {:.0f} % of the frames, and is held "
+            "at its limit there{}",
+            file.string(), names.at(names.size() - DyadPerson::kFace + c).get<std::string>(), low, high,
+            100 * outside / frames,
+            c < 5 ? "; a partner who does not face the camera is turned to it first" : ""));
+    }
+}
+
+PartnerTrack partner_of(const LearnedEngine& engine, std::vector<std::string>& notes) {
+    PartnerTrack partner{.face = seen(*engine.user_face, notes), .speech = {}};
+    const Audio sound = read_audio(*engine.user_speech);
+    if (auto note = note_of_two_voices(sound, *engine.user_speech, "give the partner's channel as a file"))
+        notes.push_back(std::move(*note));
+    partner.speech = heard(sound);
+    return partner;
+}
+
 // The inputs of AMII (synth/learned/dyads/dyad_jobs.h). Says in `notes` what was cut.
-void write_dyad_inputs(const fs::path& file, const Speech& speech, const LearnedEngine& engine,
+void write_dyad_inputs(const fs::path& file, const Speech& speech, PartnerTrack partner,
                        std::vector<std::string>& notes) {
     std::vector<float> own = heard(speech.audio);
-    PartnerTrack partner{.face = seen(*engine.user_face, notes),
-                         .speech = heard(read_audio(*engine.user_speech))};
     const std::size_t spoken = own.size() / DyadPerson::kSpeech;
     const std::size_t frames = std::min(spoken, partner.frames());
     assert(frames > 0);  // no reader gives an empty sound or motion
@@ -337,9 +368,9 @@ Json LearnedSynthesizer::description() const {
 void LearnedSynthesizer::write_inputs(const fs::path& file, const Speech& speech,
                                       std::vector<std::string>& notes) const {
     if (needs_partner(engine_.model)) {
-        write_dyad_inputs(file, speech, engine_, notes);
-        description();
-        return;
+        PartnerTrack partner = partner_of(engine_, notes);
+        note_unlearned(partner.face, description(), *engine_.user_face, notes);
+        return write_dyad_inputs(file, speech, std::move(partner), notes);
     }
     const SpokenUnits units = needs_style(engine_.model) ? SpokenUnits{} : units_of(speech, engine_.model);
     const Json described = description();

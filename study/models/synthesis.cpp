@@ -53,8 +53,27 @@ bool has_script(const SynthesisJob& job) {
     return job.source || !job.script.empty();
 }
 
+// A table that was given for a script would be read aloud for hours.
+void refuse_table(const MarkupSource& source) {
+    constexpr std::size_t kFew = 50;  // as many numbers may be a text about them
+    constexpr double kShare = 0.8;
+    std::size_t words = 0, numbers = 0;
+    for (const std::string_view part : split_words(source.text)) {
+        for (const std::string_view word : split(part, ',')) {
+            words += word.empty() ? 0 : 1;
+            numbers += parse_number(word) ? 1 : 0;
+        }
+    }
+    if (numbers <= kFew || static_cast<double>(numbers) < kShare * static_cast<double>(words)) return;
+    throw Error(
+        format("{}: {} of its {} words are numbers, so it is a table and no text that somebody says; give a "
+               "text, or a recording with --speech",
+               source.name, numbers, words));
+}
+
 MarkedText parse_any(const SynthesisJob& job, const std::string& language_of_words) {
     MarkupSource source = job.source ? *job.source : read_markup_source(job.script, job.option);
+    refuse_table(source);
     source.language = language_of_words;
     if (!job.language) return parse_marked_text(source);
     MarkedText text = parse_marked_text(source, *job.language);
@@ -195,7 +214,8 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Le
                 std::vector<std::string>& notes) {
     const Audio whole = read_audio(*job.recording);
     if (job.channel == SpeechChannel::mean)
-        if (auto note = note_of_two_voices(whole, *job.recording)) notes.push_back(std::move(*note));
+        if (auto note = note_of_two_voices(whole, *job.recording, "--speech-channel left or right takes one"))
+            notes.push_back(std::move(*note));
     Audio sound = take_channel(whole, job.channel, *job.recording);
     if (!job.words) {
         if (has_script(job)) {
@@ -206,7 +226,8 @@ Speech recorded(const SynthesisJob& job, const std::string& of_speaker, const Le
         }
         Speech speech = heard(std::move(sound), of_speaker);
         notes.push_back(format("{}: {}", job.recording->string(),
-                               speech.words.empty()
+                               job.learned && !job.fill ? "its words are not known"
+                               : speech.words.empty()
                                    ? "no speech is heard in it, and nothing is gestured"
                                    : "its words are not known; gestures go with what is stressed"));
         return speech;
@@ -333,7 +354,8 @@ Synthesized synthesize(const SynthesisJob& job) {
                               .lexicon = read_lexicons(job.lexicons),
                               .variants = job.variants,
                               .fps = job.fps,
-                              .seed = job.seed};
+                              .seed = job.seed,
+                              .partner = radians(job.partner_deg)};
     options.speaker.manner = overridden(options.speaker.manner, job.manner);
     if (job.voice) options.speaker.voice = *job.voice;
     if (job.spoken_language) options.speaker.voice.language = *job.spoken_language;

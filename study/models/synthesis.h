@@ -37,6 +37,7 @@ struct SynthesisJob {
     Variants variants;
     double fps = 30;  // of the motion
     std::uint64_t seed = 0;
+    double partner_deg = 0;                // how far to the person's left stands whom they look at
     std::optional<LearnedEngine> learned;  // in place of the expressive engine, at its own rate
     bool fill = false;  // what the learned engine does not say comes from the expressive one
 };

@@ -159,7 +159,7 @@ std::optional<std::string> describe_other_language(std::span<const std::string> 
         if (count < kFewest || count <= kTimesAsMany * count_own) continue;
         return format(
             "{} of its words are {} ({}), {} {}; if it is {}, give its language: --language {}, or "
-            "\"language\" of the speaker's voice",
+            "\"language\" of a person of a dialog, or of the speaker's voice",
             count, list.language, join(shown), count_own, own->language, list.language, list.code);
     }
     return std::nullopt;

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/progress.h"
 #include "core/random.h"
 #include "synth/body/agent_body.h"
 #include "synth/gestures/hand_shape.h"
@@ -184,6 +185,7 @@ std::vector<LabelTrack> touches_of(const std::array<ArmPath, 2>& paths, const Cl
     for (const ArmSide side : kArmSides) {
         Labels labels(std::string(kTouchLabels[index_of(side)]), std::string(name_of(Touch::nothing)));
         for (std::size_t t = 0; t < clock.frames; ++t) {
+            stop_if_interrupted();
             const Touch touch = touch_at(paths[index_of(side)], static_cast<double>(t) / clock.fps);
             labels.add(name_of(touch));
             touches = touches || touch != Touch::nothing;
@@ -198,6 +200,7 @@ std::vector<LabelTrack> labels_of(const std::array<ArmPath, 2>& paths, const Sch
     Labels left("left phase", "rest"), right("right phase", "rest"), gesture("gesture", "-"),
         function("function", "-");
     for (std::size_t t = 0; t < clock.frames; ++t) {
+        stop_if_interrupted();
         const double time = static_cast<double>(t) / clock.fps;
         std::size_t shown = 0;  // one above the latest gesture of both arms
         for (const ArmSide side : kArmSides) {
@@ -250,6 +253,7 @@ ArmMotion move_arms(const std::vector<PlannedGesture>& planned_gestures, const G
                      .notes = std::move(plan.notes)};
     const Sway sway(seed);
     for (std::size_t t = 0; t < clock.frames; ++t) {
+        stop_if_interrupted();
         const double time = static_cast<double>(t) / clock.fps;
         for (const ArmSide side : kArmSides) {
             const ArmPoint point = point_at(grid.arms[index_of(side)], grid.rate, time);

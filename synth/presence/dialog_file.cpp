@@ -29,8 +29,9 @@ Speaker speaker_in(const JsonValue& value, const fs::path& folder) {
 
 DialogScript::Person person_in(const JsonValue& value, const fs::path& folder) {
     constexpr double kFarthest = 45;  // to either side; ours [degrees]
-    value.allow_only({"speaker", "partner_deg"});
+    value.allow_only({"speaker", "language", "partner_deg"});
     DialogScript::Person person{.speaker = speaker_in(value.at("speaker"), folder)};
+    if (const auto language = value.find("language")) person.speaker.voice.language = language_in(*language);
     if (const auto partner = value.find("partner_deg"))
         person.partner = radians(partner->number(-kFarthest, kFarthest));
     return person;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/progress.h"
 #include "synth/body/agent_body.h"
 #include "synth/presence/blinks.h"
 #include "synth/presence/breathing.h"
@@ -187,6 +188,7 @@ IdleBody animate_smiling_body(const PresenceInputs& inputs, const Curve& smile) 
     body.turns.resize(times.frames * kAgentJoints, kNoTurn);
     body.face = show_face(inputs, smile, plan_blinks(phrases, shifts, times.last(), Random(seed, 4)));
     for (std::size_t t = 0; t < times.frames; ++t) {
+        stop_if_interrupted();
         const FrameTurns turns{body.turns.data() + t * kAgentJoints};
         body.hips.push_back(place_legs(turns, presence, speaker, t));
         bend_trunk(turns, presence, speaker, t);

@@ -63,12 +63,7 @@ bool is_name_of_voice(const std::string& text) {
 Voice voice_in(const JsonValue& section) {
     section.allow_only({"language", "variant", "pitch", "rate", "range"});
     Voice voice;
-    if (const auto language = section.find("language")) {
-        voice.language = language->text();
-        if (!is_name_of_voice(voice.language))
-            language->refuse(format("is {}, a language of espeak-ng is needed, such as en-us, en-gb or fr",
-                                    language->shown()));
-    }
+    if (const auto language = section.find("language")) voice.language = language_in(*language);
     if (const auto variant = section.find("variant"); variant && variant->json() != "") {
         voice.variant = variant->text();
         if (!is_name_of_voice(voice.variant))
@@ -118,6 +113,14 @@ Speaker read_speaker(const fs::path& file) {
     if (const auto section = whole.find("habits")) read_habits(*section, speaker);
     if (const auto section = whole.find("voice")) speaker.voice = voice_in(*section);
     return speaker;
+}
+
+std::string language_in(const JsonValue& value) {
+    std::string language = value.text();
+    if (!is_name_of_voice(language))
+        value.refuse(
+            format("is {}, a language of espeak-ng is needed, such as en-us, en-gb or fr", value.shown()));
+    return language;
 }
 
 Speaker speaker_named(const std::string& name_or_file) {

@@ -9,6 +9,8 @@
 
 namespace chironomia {
 
+class JsonValue;
+
 // The bundled speakers are neutral, three extremes of manner, and 22 of known, well-spread style on which
 // models are trained and judged.
 enum class SpeakerGroup {
@@ -27,6 +29,9 @@ std::vector<std::string> speaker_names();
 // out is as the neutral speaker has it. Throws Error naming file and key if it is missing, is no JSON, or
 // holds an unknown key or a bad value.
 Speaker read_speaker(const std::filesystem::path& file);
+
+// A language as espeak-ng names it. Throws Error if the text cannot be one.
+std::string language_in(const JsonValue& value);
 
 // One of speaker_names(), or a file with an ending. Throws Error with the nearest name if there is none such,
 // and as read_speaker.

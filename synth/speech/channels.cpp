@@ -48,7 +48,8 @@ Audio take_channel(const Audio& sound, SpeechChannel channel, const std::filesys
     return one;
 }
 
-std::optional<std::string> note_of_two_voices(const Audio& sound, const std::filesystem::path& file) {
+std::optional<std::string> note_of_two_voices(const Audio& sound, const std::filesystem::path& file,
+                                              std::string_view advice) {
     constexpr double kHeard = 1e-4;  // of the loudest 50 ms: 40 dB below it
     constexpr double kLouder = 4;    // 6 dB
     constexpr double kShare = 0.1;
@@ -66,8 +67,8 @@ std::optional<std::string> note_of_two_voices(const Audio& sound, const std::fil
     if (heard == 0 || std::min(left, right) < kShare * heard) return std::nullopt;
     return format(
         "{}: its channels are heard in turn, the left one alone in {:.0f} % of the time, the right one in {:.0f} "
-        "%; if they are two people, --speech-channel left or right takes one",
-        file.string(), 100 * left / heard, 100 * right / heard);
+        "%; if they are two people, {}",
+        file.string(), 100 * left / heard, 100 * right / heard, advice);
 }
 
 }  // namespace chironomia

@@ -251,6 +251,10 @@ TEST_F(Learning, GoesFromDyadsToSomebodyWhoListens) {
     must({"synth", "--engine", "amii", "--checkpoint", file("m.safetensors"), "--user-face", file("u.h5"),
           "--user-speech", file("u2.wav"), "--out", file("a.h5")});
     EXPECT_THAT(said_, HasSubstr("unequal lengths, cut to"));
+    must({"synth", "--text", kText, "--partner-deg", "45", "--out", file("aside.h5")});
+    must({"synth", "--engine", "amii", "--user-face", file("aside.h5"), "--user-speech", file("u2.wav"),
+          "--out", file("c.h5")});
+    EXPECT_THAT(said_, HasSubstr("aside.h5: Ry lies outside what the model has learned"));
     const Motion motion = testing::read_motion_hdf5(file("a.h5"));
     EXPECT_EQ(motion.fps, 25);
     EXPECT_NEAR(duration(motion), brief.duration(), 1 / motion.fps);

@@ -7,6 +7,7 @@
 #include "core/files/files.h"
 #include "core/files/json.h"
 #include "core/files/wav_file.h"
+#include "core/quantile.h"
 #include "core/text.h"
 #include "raster/ffmpeg/audio_file.h"
 #include "skinning/motion/motion_hdf5.h"
@@ -582,6 +583,33 @@ TEST_F(Synth, MakesBothPeopleOfADialog) {
     EXPECT_EQ(first["words"].size(), 6u);
     EXPECT_LT(first["words"].back()["end"], second["words"].front()["start"]);
     EXPECT_EQ(second["speaker"], "vigorous");
+    EXPECT_THAT(made.err, HasSubstr("person 1: gesture \""));
+}
+
+// The head of the left one of two goes to the left, where the other stands.
+TEST_F(Synth, LooksAtAPartnerWhoStandsAside) {
+    const auto yaw = [&](const std::string& degrees) {
+        EXPECT_EQ(synth({"--text", kText, "--partner-deg", degrees}, "m.h5").exit_code, 0);
+        std::vector<double> yaws;
+        for (const Quat& turn : testing::read_motion_hdf5(folder_ / "m.h5").face->head) {
+            const Vec3 ahead = turn * Vec3(0, 0, 1);
+            yaws.push_back(std::atan2(ahead.x, ahead.z));
+        }
+        return glm::degrees(median(yaws));
+    };
+    const double left = yaw("35"), right = yaw("-35"), ahead = yaw("0");
+    EXPECT_GT(left, ahead + 15);
+    EXPECT_LT(right, ahead - 15);
+}
+
+TEST_F(Synth, ReadsNoTablesAloud) {
+    std::string table = "frame, timestamp, confidence\n";
+    for (int t = 0; t < 40; ++t) table += format("{}, {:.3f}, 0.98\n", t, t / 30.0);
+    write_text(folder_ / "face.csv", table);
+    const Outcome outcome = synth({file("face.csv")});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_THAT(outcome.err,
+                HasSubstr("face.csv: 120 of its 123 words are numbers, so it is a table and no text"));
 }
 
 TEST_F(Synth, SaysWhatIsWrong) {

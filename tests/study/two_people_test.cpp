@@ -308,6 +308,8 @@ TEST(TwoPeople, ShareARateWhereTheirFilesHaveNone) {
                         (folder / "a.mp4").string(), "--quiet"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("openpose_24fps: the motion lasts 105 frames of 287;"));
+    EXPECT_THAT(outcome.err,
+                HasSubstr("it has 30 frames/s of its own; 24, which is set once for all, is for motions"));
 }
 
 TEST(TwoPeople, AreWarnedOfWhoLeavesThePicture) {

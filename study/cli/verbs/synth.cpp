@@ -97,6 +97,13 @@ void add_manner(CLI::App& verb, SynthesisJob& job) {
             ->check(CLI::Range(least_of(dimension), 1.0))
             ->group(kOfSpeakers);
     }
+    verb.add_option(
+            "--partner-deg", job.partner_deg,
+            "How far to the person's left the partner stands whom they look at: 35 and -35 for the left and "
+            "the right one of scene dyad [0]")
+        ->type_name("D")
+        ->check(CLI::Range(-45.0, 45.0))
+        ->group(kOfSpeakers);
     verb.add_option("--lexicon", job.lexicons, "More gestures, in files of docs/gestures.md")
         ->type_name("FILE");
 }
@@ -234,15 +241,21 @@ void refuse_options_of_one(const CLI::App& verb) {
     }
 }
 
+// "2 words"
+std::string counted(std::size_t count, std::string_view what) {
+    return format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 std::string summary(const Synthesized& made) {
     const Motion& motion = made.performed.motion;
-    const std::size_t words = made.speech.words.size(), gestures = made.performed.gestures.size();
+    std::string text =
+        format("{:.2f} s, {} frames at {:g} frames/s", duration(motion), motion.frames, motion.fps);
+    const std::vector<SpokenWord>& words = made.speech.words;
     // Of speech whose words are not known, those are the places that are stressed.
-    const char* counted =
-        made.speech.words.empty() || !made.speech.words[0].text.empty() ? "word" : "stressed place";
-    return format("{:.2f} s, {} frames at {:g} frames/s, {} {}{}, {} gesture{}", duration(motion),
-                  motion.frames, motion.fps, words, counted, words == 1 ? "" : "s", gestures,
-                  gestures == 1 ? "" : "s");
+    const bool is_known = words.empty() || !words[0].text.empty();
+    text += ", " + counted(words.size(), is_known ? "word" : "stressed place");
+    if (motion.joints) text += ", " + counted(made.performed.gestures.size(), "gesture");
+    return text;
 }
 
 // person-0.h5, .wav and .json, and the same of the other.
@@ -254,8 +267,10 @@ int run_dialog(const SynthCommand& command) {
                                                                .seed = command.job.seed});
     for (std::size_t i = 0; i < 2; ++i) {
         const std::filesystem::path file = command.out / format("person-{}.h5", i);
-        warn(both[i].notes);
-        warn(both[i].performed.motion.notes);
+        std::vector<std::string> notes = both[i].notes;
+        std::ranges::copy(both[i].performed.motion.notes, std::back_inserter(notes));
+        for (std::string& note : notes) note = format("person {}: {}", i, note);
+        warn(notes);
         write_motion_hdf5(file, both[i].performed.motion);
         write_wav(std::filesystem::path(file).replace_extension(".wav"), both[i].speech.audio);
         write_json(std::filesystem::path(file).replace_extension(".json"), score_of(both[i]));
@@ -302,10 +317,13 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         const bool listens = command->learned.user_speech || command->learned.content_of;
         if (job.script.empty() && job.gestures.empty() && !job.recording && command->dialog.empty() &&
             !listens) {
+            if (command->learned.model == "amii") {
+                throw CLI::ValidationError(
+                    "--engine amii",
+                    "adapts to what its partner does; give both --user-face and --user-speech");
+            }
             throw CLI::RequiredError(
-                command->learned.model == "amii"
-                    ? "--user-face and --user-speech"
-                    : "--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog");
+                "--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog");
         }
         if (!command->dialog.empty()) refuse_options_of_one(*verb);
         if (!job.gestures.empty() && job.recording)

@@ -113,7 +113,7 @@ Tensor run_free(const DyadModel& model, const std::vector<DyadFrames>& dyads, co
     const PersonFrames a = stretches_of(dyads, examples, 0), u = stretches_of(dyads, examples, 1);
     const DyadSteps step = model.start_many();
     for (std::size_t k = 0; k < examples.frames; ++k) {
-        if (was_interrupted()) throw Interrupted();
+        stop_if_interrupted();
         const Tensor next = step(window_in(a, k), window_in(u, k));
         a.face.select(1, whole(kWindowFrames + k)).copy_(next.clamp(0, 1));
     }

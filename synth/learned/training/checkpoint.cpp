@@ -91,6 +91,9 @@ Json read_description(const fs::path& stem) {
                    "them, or give back its file",
                    weights.string(), json.filename().string()));
     }
+    if (!fs::exists(json))
+        throw Error(format("{}: there is no such checkpoint, and no {} beside it; check the path",
+                           weights.string(), json.filename().string()));
     return read_json(json);
 }
 

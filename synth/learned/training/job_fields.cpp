@@ -41,6 +41,12 @@ Json feature_names(const std::vector<Feature>& features) {
     return names;
 }
 
+Json feature_ranges(const std::vector<Feature>& features) {
+    Json ranges = Json::array();
+    for (const Feature& feature : features) ranges.push_back({feature.low, feature.high});
+    return ranges;
+}
+
 }  // namespace
 
 JobRun begin_job(const JsonValue& job) {
@@ -101,6 +107,7 @@ Json checkpoint_answer(const Checkpoint& checkpoint) {
             {"options", checkpoint.options},
             {"text_encoder", checkpoint.text_encoder},
             {"inputs", feature_names(checkpoint.inputs)},
+            {"input_ranges", feature_ranges(checkpoint.inputs)},
             {"outputs", feature_names(checkpoint.outputs)},
             {"seed", checkpoint.seed},
             {"steps", checkpoint.step},

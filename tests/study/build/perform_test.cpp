@@ -61,6 +61,24 @@ class PerformClips : public ::testing::Test {
     Json json_ = small_plan();
 };
 
+// The agent stands on the left of the picture unless the partner does, and in the scene dyad they look at each other.
+TEST_F(PerformClips, LooksAtThePartnerOfADyad) {
+    write_text(folder_ / "partner.bvh", "unread");
+    json_["clips"][0]["partner"] = {{"motion", "partner.bvh"}};
+    const auto sideways = [&](const char* scene, const char* partner_side) {
+        json_["render"]["scene"] = scene;
+        json_["render"]["partner_side"] = partner_side;
+        const PerformedClips made = perform_clips(plan());
+        const Motion motion = read_motion(made.plan.clips[0].motions[0], {});
+        float sum = 0;
+        for (const Quat& turn : motion.face->head) sum += (turn * Vec3(0, 0, 1)).x;  // to the person's left
+        return sum / static_cast<float>(motion.frames);
+    };
+    EXPECT_GT(sideways("dyad", "right"), 0.3f);
+    EXPECT_LT(sideways("dyad", "left"), -0.3f);
+    EXPECT_LT(std::abs(sideways("split", "right")), 0.15f);
+}
+
 TEST_F(PerformClips, GivesEachMannerAMotionOfTheSameSpeech) {
     const PerformedClips made = perform_clips(plan());
     const PlanClip& clip = made.plan.clips[0];

@@ -34,10 +34,12 @@ TEST(AskToLearn, AnswersWhatAModelIs) {
 }
 
 TEST(AskToLearn, RefusesWithTheWordsOfTheHelper) {
-    EXPECT_THAT(refusal_of([] {
-                    ask_to_learn({{"verb", "describe"}, {"checkpoint", "none"}});
-                }),
-                HasSubstr("none.json: there is no such file; check the path"));
+    EXPECT_THAT(
+        refusal_of([] {
+            ask_to_learn({{"verb", "describe"}, {"checkpoint", "none"}});
+        }),
+        HasSubstr(
+            "none.safetensors: there is no such checkpoint, and no none.json beside it; check the path"));
     EXPECT_THAT(refusal_of([] {
                     ask_to_learn({{"verb", "describe"}});
                 }),

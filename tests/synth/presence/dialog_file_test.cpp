@@ -23,13 +23,14 @@ TEST(DialogFile, SaysWhoSpeaksWithWhomAndWhatTheySay) {
     write_text(folder / "max.json", R"({"habits": {"handedness": -1}, "voice": {"language": "en-gb"}})");
     write_text(folder / "answer.xml", "<aplm><affect type=\"joy\">I am fine.</affect></aplm>");
     write_text(folder / "talk.json", R"({
-        "people": [{"speaker": "jane", "partner_deg": 30}, {"speaker": "max.json"}],
+        "people": [{"speaker": "jane", "language": "de", "partner_deg": 30}, {"speaker": "max.json"}],
         "coupling": {"strength": 0.7, "delay_s": 1.1}, "pause_s": 0.8,
         "turns": [{"person": 0, "text": "How are you?"}, {"person": 1, "file": "answer.xml"},
                   {"person": 0, "ssml": "<speak>So\nam <emphasis>I</emphasis>.</speak>"}]})");
     const DialogScript dialog = read_dialog(folder / "talk.json");
     EXPECT_EQ(dialog.people[0].speaker.name, "jane");
     EXPECT_NEAR(dialog.people[0].partner, M_PI / 6, 1e-6);
+    EXPECT_EQ(dialog.people[0].speaker.voice.language, "de");
     EXPECT_EQ(dialog.people[1].speaker.name, "max");
     EXPECT_EQ(dialog.people[1].speaker.handedness, -1);
     EXPECT_EQ(dialog.people[1].partner, 0);
@@ -76,8 +77,11 @@ TEST(DialogFile, RefusesWhatItMustNotHold) {
     EXPECT_EQ(with(R"("people": [{"speaker": "neutral"}])", kTurns),
               "people: has 1 entries, at least 2 are needed");
     EXPECT_EQ(with(R"("people": [{}, {}, {}])", kTurns), "people: has 3 entries, 2 are needed");
-    EXPECT_EQ(with(R"("people": [{"speaker": "jane"}, {"name": "jane"}])", kTurns),
-              "people[1].name: there is no such key; write one of \"speaker\", \"partner_deg\"");
+    EXPECT_EQ(
+        with(R"("people": [{"speaker": "jane"}, {"name": "jane"}])", kTurns),
+        "people[1].name: there is no such key; write one of \"speaker\", \"language\", \"partner_deg\"");
+    EXPECT_THAT(with(R"("people": [{"speaker": "jane", "language": "d e"}, {"speaker": "jane"}])", kTurns),
+                HasSubstr("people[0].language: is \"d e\", a language of espeak-ng is needed"));
     EXPECT_EQ(with(R"("people": [{"speaker": "jane", "partner_deg": 90}, {"speaker": "jane"}])", kTurns),
               "people[0].partner_deg: is 90, a number from -45 to 45 is needed");
     EXPECT_EQ(with(kPeople, kTurns + R"(, "coupling": {"strength": 1})"),

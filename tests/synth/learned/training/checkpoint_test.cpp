@@ -98,7 +98,9 @@ TEST(Checkpoint, RefusesFilesThatAreNotAPair) {
     fs::remove(folder / "b.safetensors");
     EXPECT_THAT(refusal_of([&] { weight_in(folder / "b"); }),
                 HasSubstr("b.json: b.safetensors is missing beside it; copy both files"));
-    EXPECT_THAT(refusal_of([&] { weight_in(folder / "c"); }), HasSubstr("c.json: there is no such file"));
+    EXPECT_THAT(
+        refusal_of([&] { weight_in(folder / "c"); }),
+        HasSubstr("c.safetensors: there is no such checkpoint, and no c.json beside it; check the path"));
 }
 
 TEST(Checkpoint, WithoutTheStateOfItsTrainingIsOnlyUsed) {
