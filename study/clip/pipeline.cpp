@@ -49,13 +49,22 @@ void check_thread_limit(const ClipJob& job) {
     together.count_down();
 }
 
+// Whether a video of a study ends before so many frames: what is cut away needs no warning.
+bool ends_before(const ClipJob& job, double frames) {
+    return job.at_least && job.frames.last && static_cast<double>(*job.frames.last) <= frames;
+}
+
 // What moves decides, unless the job or the sound asks for more.
 ClipLength length_of_clip(std::size_t frames, const ClipJob& job, const std::optional<Audio>& sound) {
     if (job.at_least) {
         frames = std::max(frames,
                           static_cast<std::size_t>(std::ceil(*job.at_least * job.fps.per_second() - 1e-6)));
     }
-    return agree_length(frames, job.fps, sound && !picture_decides(job) ? &*sound : nullptr);
+    ClipLength length = agree_length(frames, job.fps, sound && !picture_decides(job) ? &*sound : nullptr);
+    const double moved = static_cast<double>(frames);
+    const double heard = sound ? sound->duration() * job.fps.per_second() + 1 : moved;
+    if (ends_before(job, std::min(moved, heard))) length.warnings.clear();
+    return length;
 }
 
 // The longest motion decides.
@@ -67,7 +76,9 @@ ClipLength length_of_clip(const std::vector<Performance>& people, const ClipJob&
     for (const Performance& performance : people) {
         length.warnings.insert(length.warnings.end(), performance.warnings.begin(),
                                performance.warnings.end());
-        if (performance.fit.poses.size() == length.frames - length.held_frames) continue;
+        const std::size_t moved = performance.fit.poses.size();
+        if (moved == length.frames - length.held_frames || ends_before(job, static_cast<double>(moved)))
+            continue;
         length.warnings.push_back(format("{}: the motion lasts {} frames of {}; its last pose is held",
                                          performance.motion_file.string(), performance.fit.poses.size(),
                                          length.frames));

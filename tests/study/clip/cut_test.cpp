@@ -237,6 +237,21 @@ TEST_F(Soundtracks, FadeOutWhereverAConditionOfAStudyEndsEarly) {
     }
 }
 
+// A study's video that ends before a pose is held shows none that is held.
+TEST(RecordClip, WarnsOfNothingThatIsCutAway) {
+    const TemporaryFolder folder;
+    ClipJob job = cut_job({.begin = 0, .end = 0.3});
+    job.performers[0].avatar = "stick";
+    job.size = {64, 36};
+    job.at_least = 0.5;
+    job.out = folder / "a.mp4";
+    job.frames.last = 9;
+    EXPECT_THAT(record_clip(job).warnings, ElementsAre());
+    job.frames.last = 10;
+    EXPECT_THAT(record_clip(job).warnings,
+                ElementsAre(HasSubstr("the motion lasts 9 frames of 15; its last pose is held")));
+}
+
 TEST_F(Soundtracks, WarnOfASoundThatIsHeardLate) {
     const std::filesystem::path bare = folder_ / "bare.mp3";
     testing::output_of("ffmpeg -nostdin -v error -f lavfi -i sine=440:d=1 -c:a libmp3lame -write_xing 0 " +
