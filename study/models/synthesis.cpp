@@ -116,7 +116,7 @@ MarkedText parse_words(const TimedWords& timed, const std::filesystem::path& fil
 // What a synthetic voice says.
 Speech spoken(const MarkedText& text, const Speaker& speaker) {
     const SpokenTurn only{.person = 0, .speech = speak(text, speaker.voice)};
-    return place_turns(std::span(&only, 1), kSilence)[0];
+    return place_turns(std::span(&only, 1), {.at_edges = kSilence})[0];
 }
 
 // Each gesture for itself, with its name for a word that nobody says.
@@ -403,7 +403,8 @@ std::array<Synthesized, 2> synthesize_dialog(const DialogJob& job) {
         std::vector<std::string>& notes = made[turn.person].notes;
         notes.insert(notes.end(), turn.text.notes.begin(), turn.text.notes.end());
     }
-    std::array<Speech, 2> speeches = place_turns(turns, script.pause);
+    std::array<Speech, 2> speeches =
+        place_turns(turns, {.between = script.pause, .at_edges = std::max(script.pause, kSilence)});
     ExpressiveDialog dialog{.people = {}, .coupling = script.coupling};
     for (std::size_t i = 0; i < 2; ++i) {
         const DialogScript::Person& person = script.people[i];

@@ -23,7 +23,7 @@ struct DialogScript {
     };
     std::array<Person, 2> people;
     Coupling coupling;
-    double pause = 0.4;             // before the first turn, between turns, and after the last [s], 0 to 5
+    double pause = 0.4;             // between turns [s], 0 to 5
     std::vector<DialogTurn> turns;  // at least one
 };
 

@@ -48,14 +48,15 @@ void append(Speech& all, const Speech& turn, double start) {
 
 }  // namespace
 
-std::array<Speech, 2> place_turns(std::span<const SpokenTurn> turns, double pause) {
+std::array<Speech, 2> place_turns(std::span<const SpokenTurn> turns, const Pauses& pauses) {
     assert(!turns.empty());
     const int rate = turns.front().speech.audio.rate;
     // Turns begin on whole samples, so that words and sounds stay together.
-    const auto gap = static_cast<std::size_t>(std::llround(pause * rate));
+    const auto gap = static_cast<std::size_t>(std::llround(pauses.between * rate));
+    const auto edge = static_cast<std::size_t>(std::llround(pauses.at_edges * rate));
     std::array<Speech, 2> people;
     for (Speech& person : people) person.audio.rate = rate;
-    std::size_t now = gap;
+    std::size_t now = edge;
     for (const SpokenTurn& turn : turns) {
         const Audio& sound = turn.speech.audio;
         assert(turn.person < 2 && sound.rate == rate && sound.channels == 1);
@@ -65,7 +66,7 @@ std::array<Speech, 2> place_turns(std::span<const SpokenTurn> turns, double paus
         append(person, turn.speech, static_cast<double>(now) / rate);
         now += sound.samples.size() + gap;
     }
-    for (Speech& person : people) person.audio.samples.resize(now, 0.0f);
+    for (Speech& person : people) person.audio.samples.resize(now - gap + edge, 0.0f);
     return people;
 }
 

@@ -16,10 +16,14 @@ struct SpokenTurn {
     Speech speech;
 };
 
-// What each of the two says, on a common timeline: turn after turn, `pause` seconds before the first, between
-// them and after the last [s]; silence while the other speaks. Both sounds are equally long. All turns have
-// the same rate of sound.
-std::array<Speech, 2> place_turns(std::span<const SpokenTurn> turns, double pause);
+struct Pauses {
+    double between = 0;   // of two turns [s]
+    double at_edges = 0;  // before the first turn and after the last [s]
+};
+
+// What each of the two says, on a common timeline: turn after turn; silence while the other speaks. Both sounds are
+// equally long. All turns have the same rate of sound.
+std::array<Speech, 2> place_turns(std::span<const SpokenTurn> turns, const Pauses& pauses);
 
 // A time in which one of the two has the floor: from their first word until the other begins.
 struct FloorTime {

@@ -103,7 +103,7 @@ std::array<Speech, 2> converse(const Dyad& dyad) {
         time += turn.speech.audio.duration() + kPause;
         turns.push_back(std::move(turn));
     }
-    return place_turns(turns, kPause);
+    return place_turns(turns, {.between = kPause, .at_edges = kPause});
 }
 
 DyadPerson person_of(const Dyad& dyad, std::size_t number, const Speech& speech, const Performed& performed) {

@@ -24,28 +24,28 @@ Speech one_word(const std::string& text, double seconds, float level) {
 TEST(PlaceTurns, LaysSpeechesOneAfterTheOther) {
     const std::vector<SpokenTurn> turns = {
         {0, one_word("one", 2, 0.1f)}, {1, one_word("two", 1, 0.2f)}, {0, one_word("three", 4, 0.3f)}};
-    const auto [first, second] = place_turns(turns, 0.5);
-    EXPECT_EQ(first.audio.samples.size(), 9000u);  // 0.5 + 2 + 0.5 + 1 + 0.5 + 4 + 0.5 s
-    EXPECT_EQ(second.audio.samples.size(), 9000u);
+    const auto [first, second] = place_turns(turns, {.between = 0.5, .at_edges = 1});
+    EXPECT_EQ(first.audio.samples.size(), 10000u);  // 1 + 2 + 0.5 + 1 + 0.5 + 4 + 1 s
+    EXPECT_EQ(second.audio.samples.size(), 10000u);
     EXPECT_EQ(first.language, "en-gb");
     ASSERT_EQ(first.words.size(), 2u);
-    EXPECT_NEAR(first.words[0].start, 1.5, 1e-9);
-    EXPECT_NEAR(first.words[1].start, 4.5 + 2, 1e-9);
-    EXPECT_NEAR(second.words.at(0).end, 4, 1e-9);
+    EXPECT_NEAR(first.words[0].start, 2, 1e-9);
+    EXPECT_NEAR(first.words[1].start, 5 + 2, 1e-9);
+    EXPECT_NEAR(second.words.at(0).end, 4.5, 1e-9);
     EXPECT_EQ(first.words[1].first_phoneme, 1u);
     EXPECT_EQ(first.words[1].end_phoneme, 2u);
-    EXPECT_NEAR(first.phonemes.at(1).end, 8.5, 1e-9);
-    for (std::size_t i = 0; i < 9000; ++i) {
+    EXPECT_NEAR(first.phonemes.at(1).end, 9, 1e-9);
+    for (std::size_t i = 0; i < 10000; ++i) {
         const double time = (static_cast<double>(i) + 0.5) / 1000;
-        const float one = time > 0.5 && time < 2.5 ? 0.1f : time > 4.5 && time < 8.5 ? 0.3f : 0;
+        const float one = time > 1 && time < 3 ? 0.1f : time > 5 && time < 9 ? 0.3f : 0;
         ASSERT_EQ(first.audio.samples[i], one) << i;
-        ASSERT_EQ(second.audio.samples[i], time > 3 && time < 4 ? 0.2f : 0) << i;
+        ASSERT_EQ(second.audio.samples[i], time > 3.5 && time < 4.5 ? 0.2f : 0) << i;
     }
 }
 
 TEST(PlaceTurns, KeepsActsAtTheirWords) {
     const std::vector<SpokenTurn> turns = {{0, one_word("one", 2, 0.1f)}, {0, one_word("two", 1, 0.2f)}};
-    const Speech speech = place_turns(turns, 0.5)[0];
+    const Speech speech = place_turns(turns, {.between = 0.5, .at_edges = 0.5})[0];
     ASSERT_EQ(speech.marks.size(), 2u);
     EXPECT_EQ(speech.marks[1].first_word, 1u);
     EXPECT_EQ(speech.marks[1].end_word, 2u);
