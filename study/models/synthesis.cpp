@@ -367,6 +367,9 @@ Synthesized synthesize(const SynthesisJob& job) {
         made.speech = unspoken(duration(made.performed.motion));
         return made;
     }
+    if (learned && job.recording && job.recording == job.learned->user_speech)
+        made.notes.push_back(format("{}: it is --speech and --user-speech, so both people say the same",
+                                    job.recording->string()));
     if (only_listens(job)) {
         made.speech = unspoken(read_audio(*job.learned->user_speech).duration());
     } else if (!job.gestures.empty()) {

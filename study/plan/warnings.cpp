@@ -31,6 +31,23 @@ void warn_of_same_motions(const Plan& plan, std::vector<std::string>& warnings) 
     }
 }
 
+// One person who stands on both sides, or whose voice is heard from both.
+void warn_of_partners_alike(const Plan& plan, std::vector<std::string>& warnings) {
+    const auto warn = [&](const char* what, auto is_alike) {
+        const auto first = std::ranges::find_if(plan.clips, is_alike);
+        if (first == plan.clips.end()) return;
+        warnings.push_back(format("{}: agent and partner have the same {} in {} of {} clips, such as \"{}\"",
+                                  plan.file.string(), what, std::ranges::count_if(plan.clips, is_alike),
+                                  plan.clips.size(), first->id));
+    };
+    warn("motion", [](const PlanClip& clip) {
+        return clip.partner && std::ranges::find(clip.motions, clip.partner->motion) != clip.motions.end();
+    });
+    warn("audio", [](const PlanClip& clip) {
+        return clip.partner && !clip.audio.empty() && clip.audio == clip.partner->audio;
+    });
+}
+
 // A text that counts is there if one of its forms is.
 void warn_of_english_texts(const Plan& plan, std::vector<std::string>& warnings) {
     if (is_bundled(plan.texts.language)) return;
@@ -129,6 +146,7 @@ void warn_of_rules_without_effect(const Plan& plan, std::vector<std::string>& wa
 std::vector<std::string> plan_warnings(const Plan& plan) {
     std::vector<std::string> warnings;
     warn_of_same_motions(plan, warnings);
+    warn_of_partners_alike(plan, warnings);
     warn_of_english_texts(plan, warnings);
     warn_of_lost_marks(plan, warnings);
     warn_of_fewer_pages(plan, warnings);

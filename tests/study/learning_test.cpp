@@ -251,6 +251,9 @@ TEST_F(Learning, GoesFromDyadsToSomebodyWhoListens) {
     must({"synth", "--engine", "amii", "--checkpoint", file("m.safetensors"), "--user-face", file("u.h5"),
           "--user-speech", file("u2.wav"), "--out", file("a.h5")});
     EXPECT_THAT(said_, HasSubstr("unequal lengths, cut to"));
+    must({"synth", "--engine", "amii", "--user-face", file("u.h5"), "--speech", file("u2.wav"),
+          "--user-speech", file("u2.wav"), "--out", file("d.h5")});
+    EXPECT_THAT(said_, HasSubstr("u2.wav: it is --speech and --user-speech, so both people say the same"));
     must({"synth", "--text", kText, "--partner-deg", "45", "--out", file("aside.h5")});
     must({"synth", "--engine", "amii", "--user-face", file("aside.h5"), "--user-speech", file("u2.wav"),
           "--out", file("c.h5")});

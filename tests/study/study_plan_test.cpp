@@ -672,6 +672,16 @@ TEST_F(StudyPlan, FindsFilesBesideTheFolderOfAPlanThatIsNamedAlone) {
     EXPECT_EQ(read_plan("plan.json").clips[1].motions[0], std::filesystem::path("../ours/c2.bvh"));
 }
 
+TEST_F(StudyPlan, WarnsOfAPartnerWhoIsTheAgent) {
+    Json clips = sample_plan()["clips"];
+    for (Json& clip : clips)
+        clip["partner"] = {{"motion", clip["motion"]["baseline"]}, {"audio", clip["audio"]}};
+    EXPECT_THAT(
+        plan_warnings(read_with({{"clips", clips}, {"render", {{"scene", "dyad"}}}})),
+        ElementsAre(HasSubstr("agent and partner have the same motion in 2 of 2 clips, such as \"c1\""),
+                    HasSubstr("agent and partner have the same audio in 2 of 2 clips, such as \"c1\"")));
+}
+
 // GENEA's question is about the person on the left.
 TEST_F(StudyPlan, RefusesTextsOfAPresetThatSpeakOfTheOtherSide) {
     const Json left = {{"preset", "genea-2023-interlocutor"}, {"render", {{"partner_side", "left"}}}};
