@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/files/json_value.h"
 #include "core/text.h"
@@ -12,10 +13,6 @@ namespace {
 
 constexpr const char* kFile = "statistics.json";
 constexpr double kLow = 0.01, kHigh = 0.99;
-
-// Of points whose shoulders are 100 px apart [px]. What varies less is the tracker's noise, which models should not
-// take for motion. Ours: in COCO annotators differ at an eye by 2.5 % of the root of the person's area.
-constexpr double kLeastDeviation = 2;
 
 FeatureScale spread(double zero, double one, bool is_clamped) {
     constexpr double kLeastSpread = 1e-9;
@@ -92,6 +89,23 @@ void add_seen(MomentsOf& moments, const std::string& array, const std::vector<fl
         if (confidence[i] > 0) of_array[i % columns].add(places[i]);
 }
 
+// Of the width of the shoulders. What varies less is the tracker's noise, which models should not take for motion.
+// Ours: in COCO annotators differ at an eye by 2.5 % of the root of the person's area.
+constexpr double kLeastDeviation = 0.02;
+
+// Of points whose shoulders have one width, in their unit. The width counts to two digits, so that the noise in it does
+// not count.
+double least_deviation(const std::vector<Moments>& pose) {
+    constexpr std::size_t kRight = 1, kLeft = 4;  // shoulders among the joints of PATS
+    const auto apart = [&](std::size_t first) {
+        return pose[first + kLeft].mean - pose[first + kRight].mean;
+    };
+    const double width = std::hypot(apart(0), apart(IntervalRecord::kJoints));
+    if (!(width > 0)) return 0;
+    const double digit = std::pow(10, std::floor(std::log10(width)) - 1);
+    return kLeastDeviation * std::round(width / digit) * digit;
+}
+
 CorpusStatistics of_intervals(const CorpusIndex& corpus) {
     MomentsOf moments;
     for (const CorpusEntry& entry : corpus.of(Split::train)) {
@@ -107,7 +121,8 @@ CorpusStatistics of_intervals(const CorpusIndex& corpus) {
     }
     CorpusStatistics statistics{.kind = CorpusKind::intervals};
     for (const auto& [array, columns] : moments) {
-        const double least = array.ends_with("/normalize") ? kLeastDeviation : 0;
+        const double least =
+            array.ends_with("/normalize") ? least_deviation(moments.at("pose/normalize")) : 0;
         for (const Moments& column : columns)
             statistics.scales[array].push_back(
                 spread(column.mean, column.mean + 2 * std::max(column.deviation(), least), false));

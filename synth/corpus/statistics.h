@@ -28,7 +28,8 @@ struct FeatureScale {
 //              "audio/log_mel_400" (1), "audio/log_mel_512" (1); for each "pose/data" (104), "pose/normalize"
 //              (104), "text/bert" (768), and if they are known "face/data" (140), "face/normalize" (140);
 //              points only of the frames in which they are seen, and of the normalised ones a deviation of at
-//              least 2 px, so that the tracker's noise at points that stand still is not taken for motion
+//              least 2 % of the shoulders' width, so that the tracker's noise at points that stand still is not
+//              taken for motion
 // A feature that does not vary becomes 0.
 struct CorpusStatistics {
     CorpusKind kind = CorpusKind::talks;

@@ -72,14 +72,6 @@ CorpusIndex intervals(const std::filesystem::path& folder, double phase_of_other
     // A coordinate that is 3 in half of the frames and 7 in the others: mean 5, standard deviation 2.
     for (std::size_t t = 0; t < train.frames(); ++t)
         train.pose[t * 2 * IntervalRecord::kJoints + 5] = t % 2 == 0 ? 3.0f : 7.0f;
-    // Two that are 5 +- 0.5 and 5 +- 10.
-    for (std::size_t t = 0; t < train.frames(); ++t) {
-        const float side = t % 2 == 0 ? 1.0f : -1.0f;
-        for (std::vector<float>* pose : {&train.pose, &train.pose_normalized}) {
-            (*pose)[t * 2 * IntervalRecord::kJoints + 6] = 5 + 0.5f * side;
-            (*pose)[t * 2 * IntervalRecord::kJoints + 7] = 5 + 10 * side;
-        }
-    }
     write_interval(folder, train);
     write_interval(folder, sample_interval("i2", "a", phase_of_others));
     write_interval(folder, sample_interval("i3", "b", phase_of_others));
@@ -102,14 +94,34 @@ TEST(Statistics, OfIntervalsAreMeanAndTwoDeviations) {
     EXPECT_EQ(found.of("face/data").size(), 2 * IntervalRecord::kFacePoints);
 }
 
-// What a point that stands still varies by is its tracker's noise.
-TEST(Statistics, OfNormalisedPointsDeviateByTwoPixelsAtLeast) {
-    const TemporaryFolder folder;
-    const CorpusStatistics found = measure_statistics(intervals(folder.path(), 1));
-    EXPECT_NEAR(found.of("pose/data")[6].one, 6, 1e-6);
-    EXPECT_NEAR(found.of("pose/normalize")[6].zero, 5, 1e-6);
-    EXPECT_NEAR(found.of("pose/normalize")[6].one, 9, 1e-6);
-    EXPECT_NEAR(found.of("pose/normalize")[7].one, 25, 1e-6);
+// What a point that stands still varies by is its tracker's noise, in whatever unit the shoulders are 100 apart.
+TEST(Statistics, OfNormalisedPointsDeviateByTwoPercentOfTheShouldersAtLeast) {
+    constexpr std::size_t kJoints = IntervalRecord::kJoints;
+    for (const float unit : {1.0f, 0.01f, 3.0f}) {
+        const TemporaryFolder folder;
+        IntervalRecord train = sample_interval("i1", "a");
+        for (std::size_t t = 0; t < train.frames(); ++t) {
+            const float side = t % 2 == 0 ? 1.0f : -1.0f;
+            const std::pair<std::size_t, float> numbers[] = {
+                {1, -50},          {4, 50}, {1 + kJoints, 0}, {4 + kJoints, 0}, {6, 5 + 0.5f * side},
+                {7, 5 + 10 * side}};
+            for (const auto& [column, value] : numbers) {
+                for (std::vector<float>* pose : {&train.pose, &train.pose_normalized})
+                    (*pose)[t * 2 * kJoints + column] = unit * value;
+                train.pose_confidence[t * 2 * kJoints + column] = 1;
+            }
+        }
+        write_interval(folder.path(), train);
+        const CorpusIndex index =
+            sample_index(folder.path(), CorpusKind::intervals,
+                         {{.id = "i1", .speaker = "a", .split = Split::train, .seconds = 2}});
+        write_corpus_index(index);
+        const CorpusStatistics found = measure_statistics(index);
+        EXPECT_NEAR(found.of("pose/data")[6].one, 6 * unit, 1e-4 * unit);
+        EXPECT_NEAR(found.of("pose/normalize")[6].zero, 5 * unit, 1e-4 * unit);
+        EXPECT_NEAR(found.of("pose/normalize")[6].one, 9 * unit, 1e-4 * unit);
+        EXPECT_NEAR(found.of("pose/normalize")[7].one, 25 * unit, 1e-4 * unit);
+    }
 }
 
 std::string bytes_of(const CorpusIndex& corpus) {
