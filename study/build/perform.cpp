@@ -68,7 +68,7 @@ SynthesisJob job_of(const Plan& plan, const PlanClip& clip, const PlanCondition&
                      .voice = speaker_named(clip.voice).voice,
                      .fps = plan.render.fps.per_second(),
                      .seed = clip.seed};
-    // Where the other stands in that scene, of which people see more if both are not turned all the way (ours).
+    // How far to the side the other stands in that scene [degrees] (docs/dialogs.md).
     constexpr double kPartnerInDyad = 35;
     if (clip.partner && plan.render.scene == "dyad")
         job.partner_deg = plan.render.partner_on_left ? -kPartnerInDyad : kPartnerInDyad;

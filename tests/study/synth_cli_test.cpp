@@ -622,6 +622,7 @@ TEST_F(Synth, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({"--gesture", "wave_hello_there"}), HasSubstr("there is no such gesture"));
     EXPECT_THAT(refusal({"--text", kText, "--lexicon", "none.json"}), HasSubstr("none.json"));
     EXPECT_THAT(refusal({"--dialog", "none.json"}), HasSubstr("none.json"));
+    EXPECT_THAT(refusal({"--engine", "amii"}), HasSubstr("give both --user-face and --user-speech"));
     const Outcome bvh = synth({"--text", kText}, "m.bvh");
     EXPECT_EQ(bvh.exit_code, 3);
     EXPECT_THAT(bvh.err, HasSubstr("a motion is written as .h5; name it so, and convert it"));

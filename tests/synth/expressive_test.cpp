@@ -7,9 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <map>
 
+#include "core/error.h"
 #include "core/hash.h"
+#include "core/progress.h"
 #include "core/text.h"
 #include "synth/body/agent_body.h"
 #include "synth/gestures/lexicon.h"
@@ -164,6 +168,22 @@ TEST(ExpressiveEngine, IsTheSameEveryTimeAndAnotherForAnotherSeed) {
     const Performed once = perform_as({}, speech, 5, 30);
     EXPECT_EQ(digest(once.motion), digest(perform_as({}, speech, 5, 30).motion));
     EXPECT_NE(digest(once.motion), digest(perform_as({}, speech, 6, 30).motion));
+}
+
+// In a process of its own, whose interrupt is not forgotten.
+TEST(ExpressiveEngine, StopsWhereItIsInterrupted) {
+    const Speech speech = speech_of("There are two ways.");
+    const auto be_interrupted = [&] {
+        watch_for_interrupts();
+        std::raise(SIGINT);
+        try {
+            perform_as(speaker_named("neutral"), speech);
+        } catch (const Interrupted&) {
+            std::_Exit(130);
+        }
+        std::_Exit(0);
+    };
+    EXPECT_EXIT(be_interrupted(), ::testing::ExitedWithCode(130), "");
 }
 
 TEST(ExpressiveEngine, ShowsTheSameActsInEveryManner) {

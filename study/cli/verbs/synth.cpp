@@ -314,14 +314,11 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
         const SynthesisJob& job = command->job;
         check_learned(*verb, *command);
         if (command->learned.model != kExpressive) command->job.learned = command->learned;
-        const bool listens = command->learned.user_speech || command->learned.content_of;
+        // Without a partner the engine itself refuses.
+        const LearnedEngine& learned = command->learned;
+        const bool listens = learned.model == "amii" || learned.user_speech || learned.content_of;
         if (job.script.empty() && job.gestures.empty() && !job.recording && command->dialog.empty() &&
             !listens) {
-            if (command->learned.model == "amii") {
-                throw CLI::ValidationError(
-                    "--engine amii",
-                    "adapts to what its partner does; give both --user-face and --user-speech");
-            }
             throw CLI::RequiredError(
                 "--text, --aplm, --bml, --ssml, --script, --speech, --gesture or --dialog");
         }
