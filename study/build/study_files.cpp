@@ -62,6 +62,7 @@ std::vector<KeyVideo> key_of_videos(const StudyDraft& draft, const std::vector<R
         videos.push_back({.token = video.token,
                           .file = public_path(draft, i),
                           .clip = draft.plan.clips[video.shows.clip].id,
+                          .motion = draft.plan.clips[video.motion].id,
                           .speech = draft.plan.clips[video.speech].id,
                           .conditions = video.shows.conditions,
                           .instruction = notice ? notice->text : "",

@@ -53,7 +53,7 @@ Sources sources_of(const Plan& plan, const VideoWish& wish, const std::vector<st
 }
 
 // A condition on a clip: the motion is its own, or that of the condition that it is made of.
-Performer performer_of(const Plan& plan, std::size_t condition, const PlanClip& clip) {
+Performer performer_of(const Plan& plan, std::size_t condition, const PlanClip& clip, const ClipJob& job) {
     const PlanCondition& made = plan.conditions[condition];
     const std::size_t source = has_motions(made) ? condition : made.from;
     const bool has_face = !clip.faces.empty() && !clip.faces[source].empty();
@@ -61,7 +61,8 @@ Performer performer_of(const Plan& plan, std::size_t condition, const PlanClip& 
                         .hints = plan.hints[condition],
                         .face = has_face ? std::optional(clip.faces[source]) : std::nullopt,
                         .avatar = plan.render.avatar,
-                        .modes = plan.modes[condition]};
+                        .modes = plan.modes[condition],
+                        .cut = clip.cut || !job.cut ? clip.cut : Cut{}};
     if (made.making == Making::anchor) performer.anchor = made.anchor;
     if (!is_film(performer.motion)) return performer;
     if (performer.anchor || performer.face) {
@@ -90,16 +91,16 @@ void add_notice(const Plan& plan, const CheckNotice& notice, double seconds, Cli
 
 ClipJob job_of(const Plan& plan, const VideoWish& wish, const Sources& sources) {
     const PlanClip& clip = plan.clips[wish.clip];
+    const PlanClip& heard = plan.clips[sources.speech];
     ClipJob job;
+    job.cut = heard.cut;
     job.performers.clear();
     for (const std::size_t condition : wish.conditions)
-        job.performers.push_back(performer_of(plan, condition, plan.clips[sources.motion]));
+        job.performers.push_back(performer_of(plan, condition, plan.clips[sources.motion], job));
     if (clip.partner) add_partner(plan, *clip.partner, clip, job);
     job.beside = wish.conditions.size() > 1;
-    job.cut = plan.clips[sources.motion].cut;
     const bool has_voices = clip.partner && !clip.partner->audio.empty();
     if (!clip.audio.empty() && !has_voices) {
-        const PlanClip& heard = plan.clips[sources.speech];
         job.audio = heard.audio;
         if (sources.speech != sources.motion) job.sound_cut = heard.cut.value_or(Cut{});
     }
@@ -215,12 +216,11 @@ void require_faces_of_all_or_none(const Plan& plan, const VideoWish& wish, const
 // One camera for all conditions of a clip: it follows all of them. A film has no hips to follow.
 void follow_all_conditions(const Plan& plan, const std::vector<std::size_t>& other, const VideoWish& wish,
                            ClipJob& job) {
-    std::vector<FollowedMotion> followed;
+    std::vector<Performer> followed;
     for (std::size_t i = 0; i < plan.conditions.size(); ++i) {
         const Sources sources = sources_of(plan, {.clip = wish.clip, .conditions = {i}}, other);
-        const PlanClip& clip = plan.clips[sources.motion];
-        FollowedMotion motion{.performer = performer_of(plan, i, clip), .cut = clip.cut};
-        if (motion.performer.film.empty()) followed.push_back(std::move(motion));
+        Performer performer = performer_of(plan, i, plan.clips[sources.motion], job);
+        if (performer.film.empty()) followed.push_back(std::move(performer));
     }
     const bool behind_partner = plan.clips[wish.clip].partner && plan.render.partner_on_left;
     for (std::size_t i = 0; i < wish.conditions.size(); ++i)
@@ -316,7 +316,10 @@ std::vector<Video> list_videos(const Plan& plan, const std::vector<VideoWish>& w
     std::vector<Video> videos;
     for (const VideoWish& wish : wishes) {
         const Sources sources = sources_of(plan, wish, other);
-        Video video{.shows = wish, .speech = sources.speech, .job = job_of(plan, wish, sources)};
+        Video video{.shows = wish,
+                    .motion = sources.motion,
+                    .speech = sources.speech,
+                    .job = job_of(plan, wish, sources)};
         if (plan.render.travel == Travel::follow) follow_all_conditions(plan, other, wish, video.job);
         require_faces_of_all_or_none(plan, wish, motions_of(video, sources.motion, motions, maker),
                                      faces[wish.clip]);

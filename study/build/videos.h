@@ -26,6 +26,7 @@ struct VideoWish {
 
 struct Video {
     VideoWish shows;
+    std::size_t motion = 0;  // the clip whose motion it shows
     std::size_t speech = 0;  // the clip whose sound it has
     ClipJob job;             // but for `out` and `threads`
     std::string recipe;      // SHA-256 of all that decides its bytes

@@ -218,6 +218,8 @@ void add(Uses& uses, const StudyPlanCommand& command) {
     for (const ConditionFolder& condition : command.folders.conditions)
         uses.reads("--from-folders", condition.folder, kMotions);
     uses.reads("--audio", command.folders.audio, kSounds);
+    uses.reads("--partner", command.folders.partner, kMotions);
+    uses.reads("--partner-audio", command.folders.partner_audio, kSounds);
     uses.reads("--segments", command.folders.segments);
     uses.writes("--out", command.out, ".json");
     uses.writes("--preregister", command.preregister, ".html");

@@ -61,7 +61,8 @@ Json face_options_of(const FaceOptions& options) {
 }
 
 Json recipe_of(const Performer& performer, const CompanionFiles& companions, RecipeMemory& memory) {
-    if (!performer.film.empty()) return {{"film", memory.hash(performer.film)}};
+    if (!performer.film.empty())
+        return {{"film", memory.hash(performer.film)}, {"cut", of_cut(performer.cut)}};
     if (plays_own_animation(performer)) {
         return {{"animation", performer.hints.animation}, {"avatar", memory.avatar(performer.avatar)}};
     }
@@ -73,6 +74,7 @@ Json recipe_of(const Performer& performer, const CompanionFiles& companions, Rec
             {"avatar", memory.avatar(performer.avatar)},
             {"modes", to_json(performer.modes)},
             {"voice", performer.voice ? Json(memory.hash(*performer.voice)) : Json()},
+            {"cut", of_cut(performer.cut)},
             {"voice_cut", of_cut(performer.voice_cut)},
             {"anchor", performer.anchor ? Json(to_text(*performer.anchor)) : Json()}};
 }
@@ -116,11 +118,8 @@ Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions, R
     for (std::size_t i = 0; i < companions.size(); ++i)
         recipe["performers"].push_back(recipe_of(job.performers[i], companions[i], memory));
     for (const Performer& performer : job.performers) {
-        for (const FollowedMotion& motion : performer.followed) {
-            recipe["followed"].push_back(
-                {recipe_of(motion.performer, companions_of(motion.performer, memory), memory),
-                 of_cut(motion.cut)});
-        }
+        for (const Performer& followed : performer.followed)
+            recipe["followed"].push_back(recipe_of(followed, companions_of(followed, memory), memory));
     }
     recipe["audio"] = job.audio ? Json(memory.hash(*job.audio)) : Json();
     recipe["scene"] = memory.hash(scene_file(job.scene.string()));
@@ -128,14 +127,14 @@ Json recipe_of(const ClipJob& job, std::span<const CompanionFiles> companions, R
     return recipe;
 }
 
-void cut(PerformerMotions& motions, const Performer& performer, const ClipJob& job) {
+void cut_to(const Cut& part, PerformerMotions& motions, const Performer& performer, const Rate& fps) {
     double longest = 0;
     for (const auto* motion : {&motions.body, &motions.face})
         if (*motion) longest = std::max(longest, duration(**motion));
     const fs::path& file = performer.motion.empty() ? *performer.face : performer.motion;
-    const CutFrames shown = cut_frames(*job.cut, longest, job.fps, file);
+    const CutFrames shown = cut_frames(part, longest, fps, file);
     for (auto* motion : {&motions.body, &motions.face})
-        if (*motion) *motion = cut_motion(**motion, shown, job.fps);
+        if (*motion) *motion = cut_motion(**motion, shown, fps);
     motions.frames = shown.count;
 }
 
@@ -182,7 +181,7 @@ PerformerMotions read_motions(const Performer& performer, const ClipJob& job) {
         motions.warnings.push_back(format(
             "{}: it has {:g} frames/s of its own; {:g}, which is set once for all, is for motions that have none",
             performer.motion.string(), motions.body->fps, *hints.fps));
-    if (job.cut) cut(motions, performer, job);
+    if (const auto& part = cut_of(performer, job)) cut_to(*part, motions, performer, job.fps);
     if (!performer.anchor) return motions;
     for (auto* motion : {&motions.body, &motions.face})
         if (*motion) *motion = degrade(**motion, *performer.anchor, performer.hints.lift_cutoff);

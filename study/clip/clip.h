@@ -32,8 +32,6 @@ struct FrameRange {
     std::optional<std::size_t> last;  // none: to the end
 };
 
-struct FollowedMotion;
-
 // Who is in a clip, and what moves them.
 struct Performer {
     std::filesystem::path motion;                 // empty: the body stands relaxed, if there is a face
@@ -43,16 +41,12 @@ struct Performer {
     std::filesystem::path avatar = kDefaultAvatar;  // a file, the name of a bundled avatar, or "stick"
     Modes modes{};
     std::optional<std::filesystem::path> voice{};  // what this person says, heard from their side
+    std::optional<Cut> cut{};                      // of motion, face or film; none: ClipJob::cut
     std::optional<Cut> voice_cut{};                // as ClipJob::sound_cut
     std::optional<Degradation> anchor{};           // body and face are made worse, after the cut
     std::filesystem::path film{};  // of a real person, who is shown in place of the avatar, alone in the clip
-    std::vector<FollowedMotion> followed;  // with Travel::follow: whom the camera follows; empty: this person
-};
-
-// A motion that a camera follows, shown or not.
-struct FollowedMotion {
-    Performer performer;  // moved by a motion or a face
-    std::optional<Cut> cut{};
+    // With Travel::follow: whom the camera follows, shown or not, moved by a motion or a face; empty: this person.
+    std::vector<Performer> followed{};
 };
 
 // Without a motion and a face the file of the avatar, which may show anything, plays its own animation.
@@ -64,12 +58,12 @@ struct ClipJob {
     std::vector<Performer> performers = {{}};  // 1, or 2 from the viewer's left to right
     bool beside = false;  // each performer in a picture of their own, as if rendered alone
     std::optional<std::filesystem::path> audio;  // of the whole clip; none with voices
-    std::optional<Cut> cut;          // what is shown of all motions and their faces, to the nearest frame
-    std::optional<Cut> sound_cut;    // what is heard of `audio`; none: `cut` as of the motions
-    bool silent = false;             // as long as with sound, but without any
-    bool stereo = false;             // a sound of one channel is played in two
-    std::optional<double> loudness;  // of all sound [LUFS], set in soundtrack.cpp; none: as it is
-    std::optional<Notice> notice{};  // burnt into the picture
+    std::optional<Cut> cut;                 // what is shown of motions and their faces, to the nearest frame
+    std::optional<Cut> sound_cut;           // what is heard of `audio`; none: `cut` in whole frames
+    bool silent = false;                    // as long as with sound, but without any
+    bool stereo = false;                    // a sound of one channel is played in two
+    std::optional<double> loudness;         // of all sound [LUFS], set in soundtrack.cpp; none: as it is
+    std::optional<Notice> notice{};         // burnt into the picture
     std::optional<SpokenNotice> spoken{};   // over the sound, before it is brought to its loudness
     SpeakingCue cue = SpeakingCue::none;    // needs two voices
     std::filesystem::path scene = "upper";  // a file, or the name of a bundled scene
@@ -86,6 +80,11 @@ struct ClipJob {
     GlBackend gl = GlBackend::any;
     bool quiet = false;  // no progress
 };
+
+// What is shown of a performer; none: all.
+inline const std::optional<Cut>& cut_of(const Performer& performer, const ClipJob& job) {
+    return performer.cut ? performer.cut : job.cut;
+}
 
 struct ClipResult {
     std::size_t frames = 0;

@@ -12,22 +12,23 @@
 namespace chironomia::study {
 namespace {
 
-const std::filesystem::path& film_of(const ClipJob& job) {
+const Performer& shown_in_film(const ClipJob& job) {
     const auto found = std::find_if(job.performers.begin(), job.performers.end(),
                                     [](const Performer& performer) { return !performer.film.empty(); });
     assert(found != job.performers.end());
-    return found->film;
+    return *found;
 }
 
 CutFrames frames_shown(const ClipJob& job) {
-    const std::filesystem::path& file = film_of(job);
+    const Performer& performer = shown_in_film(job);
+    const std::filesystem::path& file = performer.film;
     if (job.performers.size() != 1) {
         throw Error(
             format("{}: a film is shown alone, but the clip has {} performers; give it a clip of its own",
                    file.string(), job.performers.size()));
     }
     const double seconds = FilmReader(file, {.size = job.size, .fps = job.fps}).seconds();
-    if (job.cut) return cut_frames(*job.cut, seconds, job.fps, file);
+    if (const auto& cut = cut_of(performer, job)) return cut_frames(*cut, seconds, job.fps, file);
     const long long frames = std::llround(seconds * job.fps.per_second());
     return {.first = 0, .count = static_cast<std::size_t>(std::max(1LL, frames))};
 }

@@ -146,7 +146,7 @@ Soundtrack read_soundtrack(const ClipJob& job) {
 bool picture_decides(const ClipJob& job) {
     return job.cut || job.sound_cut ||
            std::any_of(job.performers.begin(), job.performers.end(),
-                       [](const Performer& each) { return each.voice_cut.has_value(); });
+                       [](const Performer& each) { return each.cut || each.voice_cut; });
 }
 
 void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const FrameRange& range) {

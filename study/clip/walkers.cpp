@@ -75,12 +75,9 @@ std::vector<std::vector<Vec3>> followed_places(const Performer& performer, const
                                                const ClipJob& job) {
     if (performer.followed.empty()) return {hips_of(own)};
     std::vector<std::vector<Vec3>> places;
-    for (const FollowedMotion& motion : performer.followed) {
-        ClipJob cut = job;
-        cut.cut = motion.cut;
-        Performer plain = motion.performer;
+    for (Performer plain : performer.followed) {
         plain.modes = {};
-        places.push_back(hips_of(perform(plain, cut)));
+        places.push_back(hips_of(perform(plain, job)));
     }
     return places;
 }

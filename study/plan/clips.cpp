@@ -4,6 +4,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "scenes/scene_file.h"
+#include "study/design/mismatch.h"
 #include "study/plan/parts.h"
 #include "synth/speakers/speakers.h"
 
@@ -261,11 +262,34 @@ void require_sound_for_mismatch(const JsonValue& whole, const Plan& plan) {
             "have partners, and a condition has the speech of another clip, which would not be theirs; "
             "make it by \"mismatched motion\"");
     }
-    // A cut is of all who are in the clip, and the other clip's motion has a cut of its own.
-    const auto is_cut = [](const PlanClip& clip) { return clip.cut.has_value(); };
-    if (std::any_of(plan.clips.begin(), plan.clips.end(), is_cut))
-        whole.at("clips").refuse(
-            "have partners and cuts, and a condition is mismatched; cut the files themselves");
+}
+
+// How long the clips are, where cuts say so; empty where one has none.
+std::vector<SpokenClip> clips_by_cut(const Plan& plan) {
+    std::vector<SpokenClip> clips;
+    for (const PlanClip& clip : plan.clips) {
+        if (!clip.cut) return {};
+        const CutFrames shown = cut_frames(*clip.cut, kLatestCut, plan.render.fps, plan.file);
+        clips.push_back(
+            {.id = clip.id, .speaker = clip.speaker, .seconds = plan.render.fps.seconds(shown.count)});
+    }
+    return clips;
+}
+
+// As far as the plan itself says whether each clip has another one; motions and sounds are read as it is built.
+void require_others_for_mismatch(const JsonValue& list, const Plan& plan) {
+    if (!has_mismatch(plan)) return;
+    std::map<std::string, std::vector<std::size_t>> clips_of;
+    for (std::size_t i = 0; i < plan.clips.size(); ++i) clips_of[plan.clips[i].speaker].push_back(i);
+    for (const auto& [speaker, clips] : clips_of) {
+        if (clips.size() > 1) continue;
+        list.items(1)[clips.front()].refuse(format(
+            "(\"{}\") is the only one {}, and a mismatched condition shows it with another one; add clips",
+            plan.clips[clips.front()].id,
+            speaker.empty() ? "without a \"speaker\"" : format("of speaker \"{}\"", speaker)));
+    }
+    const std::vector<SpokenClip> clips = clips_by_cut(plan);
+    if (!clips.empty()) draw_mismatch(clips, {.tolerance = plan.length_tolerance});
 }
 
 }  // namespace
@@ -288,6 +312,7 @@ void read_clips(const JsonValue& whole, const fs::path& folder, Plan& plan) {
         list.refuse("are all for practice; leave \"practice\" out of those that are judged");
     require_scene_for_all(whole, plan);
     require_sound_for_mismatch(whole, plan);
+    require_others_for_mismatch(list, plan);
 }
 
 }  // namespace chironomia::study

@@ -29,6 +29,7 @@ struct Segment {
     std::string where;     // "segments.csv:2: "
     std::string name;      // of its files, without an ending, composed
     std::string speaker;   // empty: unknown
+    std::string partner;   // name of the partner's files, composed; empty: as `name` says
     double begin = 0;      // [s]
     double end = 0;        // [s]
     std::size_t turn = 0;  // how many segments of the name come before it
@@ -191,7 +192,7 @@ std::vector<Segment> read_segments(const fs::path& file) {
     const CsvTable table = parse_csv_table(text, file.string());
     const std::size_t name = column_of(table, "file_name"), begin = column_of(table, "start_seconds"),
                       end = column_of(table, "end_seconds");
-    const auto speaker = find_column(table, {"speaker"});
+    const auto speaker = find_column(table, {"speaker"}), partner = find_column(table, {"partner_file_name"});
     std::map<std::string, std::size_t> turns;
     std::map<std::string, const CsvRow*> rows;  // by the id, in lower case
     std::vector<Segment> segments;
@@ -199,6 +200,7 @@ std::vector<Segment> read_segments(const fs::path& file) {
         Segment segment{.where = table.at(row),
                         .name = name_in_table(fs::path(trim(row.cells[name]))),
                         .speaker = speaker ? std::string(trim(row.cells[*speaker])) : "",
+                        .partner = partner ? name_in_table(fs::path(trim(row.cells[*partner]))) : "",
                         .begin = seconds_in(table, row, begin),
                         .end = seconds_in(table, row, end)};
         expect_possible(segment, table, row);
@@ -251,42 +253,66 @@ class Lengths {
     std::map<fs::path, Length> lengths_;
 };
 
+// The files of a folder, and which of them the table wants.
+struct Folder {
+    std::string whose;  // "ours", "the partners"
+    std::string kind;   // "motions"
+    fs::path path;      // empty: there is none
+    FilesByName files{};
+    std::set<std::string> wanted{};
+
+    std::string what() const { return format("the {}{}{}", kind, whose.empty() ? "" : " of ", whose); }
+};
+
+Folder read_folder(const std::string& whose, bool of_motions, const fs::path& path) {
+    Folder folder{.whose = whose, .kind = of_motions ? "motions" : "sounds", .path = path};
+    if (!path.empty())
+        folder.files = list_by_name(path, of_motions ? endings_of_motions() : endings_of_sounds());
+    return folder;
+}
+
+// How the partner's files of a segment are called. GENEA 2023 has "..._main-agent" and "..._interloctr".
+std::string partner_of(const Segment& segment, const Folder& partners) {
+    constexpr std::string_view kAgent = "main-agent", kPartner = "interloctr";
+    if (!segment.partner.empty()) return segment.partner;
+    const std::size_t at = segment.name.rfind(kAgent);
+    if (at == segment.name.npos || partners.files.contains(segment.name)) return segment.name;
+    return std::string(segment.name).replace(at, kAgent.size(), kPartner);
+}
+
 // What the folders have for the segments of a table.
 class Matching {
   public:
-    explicit Matching(const FoldersJob& job) : job_(job), lengths_(job.fps) {
+    explicit Matching(const FoldersJob& job)
+        : job_(job),
+          sounds_(read_folder("", false, job.audio)),
+          partners_(read_folder("the partners", true, job.partner)),
+          partner_sounds_(read_folder("the partners", false, job.partner_audio)),
+          lengths_(job.fps) {
         for (const ConditionFolder& condition : job.conditions)
-            motions_.push_back(list_by_name(condition.folder, endings_of_motions()));
-        if (!job.audio.empty()) sounds_ = list_by_name(job.audio, endings_of_sounds());
+            motions_.push_back(read_folder(condition.name, true, condition.folder));
     }
 
     // The clip of a segment, or nothing where something is missing.
     std::optional<Json> clip_of(const Segment& segment) {
-        wanted_.insert(segment.name);
-        bool is_whole = true;
         Json clip = {{"id", segment.id()}, {"cut", {segment.begin, segment.end}}};
         if (!segment.speaker.empty()) clip["speaker"] = segment.speaker;
-        if (!job_.audio.empty()) {
-            const auto sound = sound_of(segment);
-            is_whole = sound.has_value();
-            if (sound) clip["audio"] = path_of(*sound);
-        }
-        for (std::size_t i = 0; i < motions_.size(); ++i) {
-            const std::string& name = job_.conditions[i].name;
-            const auto motion = motion_of(motions_[i], segment, name);
+        bool is_whole = add_sound(clip, sounds_, segment, segment.name);
+        for (Folder& folder : motions_) {
+            const auto motion = motion_of(folder, segment, segment.name);
             is_whole = is_whole && motion;
-            if (motion) clip["motion"][name] = path_of(*motion);
-            if (motion && lengths_.of(*motion).lacks_rate) hints_[name]["fps"] = *job_.fps;
+            if (motion) clip["motion"][folder.whose] = path_of(*motion);
+            if (motion && lengths_.of(*motion).lacks_rate) hints_[folder.whose]["fps"] = *job_.fps;
         }
+        if (!job_.partner.empty()) is_whole = add_partner(clip, segment) && is_whole;
         return is_whole ? std::optional(std::move(clip)) : std::nullopt;
     }
 
     std::vector<std::string> take_faults() {
         for (const auto& [sound, beyond] : begun_after_)
             faults_.push_back(line_of(sound, beyond, "begin", ""));
-        for (std::size_t i = 0; i < motions_.size(); ++i)
-            report_unused(motions_[i], job_.conditions[i].folder);
-        if (!job_.audio.empty()) report_unused(sounds_, job_.audio);
+        for (const Folder& folder : motions_) report_unused(folder);
+        for (const Folder* folder : {&sounds_, &partners_, &partner_sounds_}) report_unused(*folder);
         return std::move(faults_);
     }
 
@@ -308,6 +334,23 @@ class Matching {
     std::string path_of(const fs::path& file) const {
         const fs::path real = fs::canonical(file.parent_path()) / file.filename();
         return real.lexically_relative(fs::weakly_canonical(job_.plan_folder)).generic_string();
+    }
+
+    // Whether there is a sound, or none is asked for.
+    bool add_sound(Json& json, Folder& sounds, const Segment& segment, const std::string& name) {
+        if (sounds.path.empty()) return true;
+        const auto sound = sound_of(sounds, segment, name);
+        if (sound) json["audio"] = path_of(*sound);
+        return sound.has_value();
+    }
+
+    bool add_partner(Json& clip, const Segment& segment) {
+        const std::string name = partner_of(segment, partners_);
+        Json& partner = clip["partner"];
+        const auto motion = motion_of(partners_, segment, name);
+        if (motion) partner["motion"] = path_of(*motion);
+        if (motion && lengths_.of(*motion).lacks_rate) partner["hints"]["fps"] = *job_.fps;
+        return add_sound(partner, partner_sounds_, segment, name) && motion;
     }
 
     // The segments that begin or end after their sound has ended.
@@ -332,13 +375,13 @@ class Matching {
                       beyond.most);
     }
 
-    // The files of a segment's name among those of `whose`; empty where there are none, or two differ in their ending
-    // alone.
-    std::vector<fs::path> files_of(const FilesByName& files, const Segment& segment,
-                                   const std::string& whose) {
-        const auto found = files.find(segment.name);
-        if (found == files.end()) {
-            faults_.push_back(format("{}: is not among {}", segment.place(), whose));
+    // The files of a name; empty where there are none, or two differ in their ending alone.
+    std::vector<fs::path> files_of(Folder& folder, const Segment& segment, const std::string& name) {
+        folder.wanted.insert(name);
+        const auto found = folder.files.find(name);
+        if (found == folder.files.end()) {
+            const std::string called = name == segment.name ? "" : format(" {}", name);
+            faults_.push_back(format("{}:{} is not among {}", segment.place(), called, folder.what()));
             return {};
         }
         const auto same =
@@ -347,14 +390,14 @@ class Matching {
         if (same == found->second.end()) return found->second;
         const fs::path& other = *std::next(same);
         const bool look_alike = same->extension() == other.extension();
-        faults_.push_back(format("{}: is twice among {}, {} and {}{}", segment.place(), whose,
+        faults_.push_back(format("{}: is twice among {}, {} and {}{}", segment.place(), folder.what(),
                                  same->filename().string(), other.filename().string(),
                                  look_alike ? ", which differ in their Unicode form alone" : ""));
         return {};
     }
 
-    std::optional<fs::path> sound_of(const Segment& segment) {
-        const std::vector<fs::path> files = files_of(sounds_, segment, "the sounds");
+    std::optional<fs::path> sound_of(Folder& sounds, const Segment& segment, const std::string& name) {
+        const std::vector<fs::path> files = files_of(sounds, segment, name);
         if (files.empty()) return std::nullopt;
         const fs::path& sound = files.front();
         const auto found = sound_seconds_.find(sound);
@@ -374,17 +417,16 @@ class Matching {
         return info.sound->duration_s;
     }
 
-    std::optional<fs::path> motion_of(const FilesByName& all, const Segment& segment,
-                                      const std::string& condition) {
-        const std::vector<fs::path> samples = files_of(all, segment, format("the motions of {}", condition));
+    std::optional<fs::path> motion_of(Folder& folder, const Segment& segment, const std::string& name) {
+        const std::vector<fs::path> samples = files_of(folder, segment, name);
         if (samples.empty()) return std::nullopt;
         if (samples.size() > 1) {
-            std::size_t& most = most_samples_[condition];
+            std::size_t& most = most_samples_[folder.whose];
             most = std::max(most, samples.size());
         }
         const fs::path& motion = samples[segment.turn % samples.size()];
         if (const std::string fault = fault_of(motion, segment); !fault.empty()) {
-            faults_.push_back(format("{}: {}: {}", segment.place(), condition, fault));
+            faults_.push_back(format("{}: {}: {}", segment.place(), folder.whose, fault));
             return std::nullopt;
         }
         return motion;
@@ -401,20 +443,19 @@ class Matching {
         }
     }
 
-    void report_unused(const FilesByName& files, const fs::path& folder) {
+    void report_unused(const Folder& folder) {
         std::vector<std::string> unused;
-        for (const auto& [name, all] : files) {
-            if (!wanted_.contains(name)) unused.push_back(name);
+        for (const auto& [name, all] : folder.files) {
+            if (!folder.wanted.contains(name)) unused.push_back(name);
         }
         if (!unused.empty())
-            faults_.push_back(format("{}: no segment names {}", folder.string(), join(unused)));
+            faults_.push_back(format("{}: no segment names {}", folder.path.string(), join(unused)));
     }
 
     const FoldersJob& job_;
-    std::vector<FilesByName> motions_;  // of each condition
-    FilesByName sounds_;
-    std::set<std::string> wanted_;
-    std::map<std::string, std::size_t> most_samples_;  // by condition, where there are several
+    std::vector<Folder> motions_;  // of each condition
+    Folder sounds_, partners_, partner_sounds_;
+    std::map<std::string, std::size_t> most_samples_;  // by whose they are, where there are several
     std::map<fs::path, double> sound_seconds_;
     std::map<fs::path, Beyond> begun_after_, ended_after_;  // by the sound
     Lengths lengths_;

@@ -19,11 +19,13 @@ struct ConditionFolder {
 
 struct FoldersJob {
     std::vector<ConditionFolder> conditions;
-    std::filesystem::path audio;        // empty: the clips have no sound
-    std::filesystem::path segments;     // CSV
-    std::string preset;                 // the protocol
-    std::optional<double> fps{};        // of motions without a rate; the plan's "hints" have it then
-    std::filesystem::path plan_folder;  // what paths in the plan are relative to
+    std::filesystem::path audio;            // empty: the clips have no sound
+    std::filesystem::path partner{};        // motions of the partners; empty: nobody else is there
+    std::filesystem::path partner_audio{};  // empty: the sounds of `audio` are of both
+    std::filesystem::path segments;         // CSV
+    std::string preset;                     // the protocol
+    std::optional<double> fps{};            // of motions without a rate; the plan's "hints" have it then
+    std::filesystem::path plan_folder;      // what paths in the plan are relative to
 };
 
 struct FoldersPlan {
@@ -34,8 +36,10 @@ struct FoldersPlan {
     std::vector<std::string> mismatches;  // what fits nothing, each one sentence; such segments are no clips
 };
 
-// The table has the columns file_name, start_seconds and end_seconds; duration_seconds and speaker may be there. The
-// files of a segment are those of its name, whatever their endings and their form of Unicode. Where a system gives
+// The table has the columns file_name, start_seconds and end_seconds; duration_seconds, speaker and partner_file_name
+// may be there. The files of a segment are those of its name, whatever their endings and their form of Unicode; those of
+// the partner have the name in partner_file_name, or else the same name, or the same with "interloctr" for "main-agent",
+// as in the data of GENEA 2023. Where a system gives
 // several motions for a name ("NAME_sample_0.npz", ...) its first segment takes the first of them, its second the
 // second, and after the last comes the first again. A speaker that the table does not name is read from names such as
 // "2_scott_0_1_1". The id of a clip is the name with the first and the last frame at 30 frames a second, as in GENEA's

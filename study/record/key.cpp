@@ -69,10 +69,11 @@ void read_design(const JsonValue& value, StudyKey& key) {
 }
 
 KeyVideo read_video(const JsonValue& value, const std::vector<std::string>& conditions) {
-    const auto instruction = value.filled("instruction");
+    const auto instruction = value.filled("instruction"), motion = value.find("motion");
     return {.token = value.at("token").text(),
             .file = value.at("file").text(),
             .clip = value.at("clip").text(),
+            .motion = (motion ? *motion : value.at("clip")).text(),
             .speech = value.at("speech").text(),
             .conditions = read_names(value.at("conditions"), conditions),
             .instruction = instruction ? instruction->at("text").text() : "",
@@ -164,14 +165,10 @@ Json design_of(const StudyKey& key) {
 }
 
 Json to_json(const StudyKey& key, const KeyVideo& video) {
-    Json json = {{"token", video.token},
-                 {"file", video.file},
-                 {"clip", video.clip},
-                 {"speech", video.speech},
-                 {"conditions", names_in(key, video.conditions)},
-                 {"frames", video.frames},
-                 {"seconds", video.seconds},
-                 {"sha256", video.sha256}};
+    Json json = {
+        {"token", video.token},   {"file", video.file},       {"clip", video.clip},
+        {"motion", video.motion}, {"speech", video.speech},   {"conditions", names_in(key, video.conditions)},
+        {"frames", video.frames}, {"seconds", video.seconds}, {"sha256", video.sha256}};
     if (!video.instruction.empty())
         json["instruction"] = {{"text", video.instruction}, {"spoken", video.is_spoken}};
     return json;

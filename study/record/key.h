@@ -32,6 +32,7 @@ struct KeyVideo {
     std::string token;
     std::string file;  // below public/
     std::string clip;
+    std::string motion;                   // the clip whose motion it shows
     std::string speech;                   // the clip whose sound it has
     std::vector<std::size_t> conditions;  // 1, or 2: left and right
     std::string instruction;              // of an attention check, given in the video; empty: none

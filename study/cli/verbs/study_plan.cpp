@@ -91,13 +91,21 @@ void add_folders(CLI::App& verb, CLI::Option& plan, StudyPlanCommand& command) {
         verb.add_option("--preset", folders.preset, "The protocol, as study presets lists them")
             ->type_name("NAME");
     CLI::Option* audio = verb.add_option("--audio", folders.audio, "Folder of the sounds")->type_name("DIR");
+    CLI::Option* partner =
+        verb.add_option("--partner", folders.partner, "Folder of the motions of those who are spoken to")
+            ->type_name("DIR");
+    CLI::Option* partner_audio =
+        verb.add_option("--partner-audio", folders.partner_audio, "Folder of their sounds")
+            ->type_name("DIR")
+            ->needs(partner)
+            ->needs(audio);
     CLI::Option* fps =
         verb.add_option("--motion-fps", folders.fps, "Frames per second of motions that carry no rate")
             ->type_name("R")
             ->check(CLI::PositiveNumber);
     CLI::Option* out = verb.add_option("--out", command.out, "The new plan [stdout]")->type_name("PLAN.json");
     from->needs(segments)->needs(preset);
-    for (CLI::Option* option : {from, segments, preset, audio, fps, out}) {
+    for (CLI::Option* option : {from, segments, preset, audio, partner, partner_audio, fps, out}) {
         option->group(group);
         if (option != from) option->needs(from);
     }

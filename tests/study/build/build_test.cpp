@@ -79,8 +79,8 @@ TEST_F(BuildStudy, FollowsAllConditionsOfAClipWithOneCamera) {
         const auto& followed = video.job.performers[0].followed;
         const std::string clip = video.shows.clip == 0 ? "c1.bvh" : "c2.bvh";
         ASSERT_THAT(followed, SizeIs(2));
-        EXPECT_EQ(followed[0].performer.motion, folder_ / "ours" / clip);
-        EXPECT_EQ(followed[1].performer.motion, folder_ / "base" / clip);
+        EXPECT_EQ(followed[0].motion, folder_ / "ours" / clip);
+        EXPECT_EQ(followed[1].motion, folder_ / "base" / clip);
         EXPECT_EQ(followed[1].cut.has_value(), video.shows.clip == 1);
     }
 }
@@ -267,6 +267,46 @@ TEST_F(BuildStudy, PutsThePartnerBesideTheAgent) {
         std::set<std::string> inputs;
         for (const InputFile& input : list_inputs(read)) inputs.insert(input.path);
         EXPECT_EQ(inputs.count("bob.bvh") + inputs.count("bob.wav"), 2u);
+    }
+}
+
+// The agent moves as in the other clip, and all else is of the clip itself.
+TEST_F(BuildStudy, CutsAnAgentOfAnotherClipAsTheOtherClipIsCut) {
+    write_text(folder_ / "bob.bvh", "bob.bvh");
+    for (const char* name : {"c1.wav", "c2.wav", "bob.wav"})
+        write_wav(folder_ / name, testing::sine({.seconds = 1}));
+    json_["render"]["scene"] = "dyad";
+    json_["mismatched"] = "motion";
+    for (Json& clip : json_["clips"]) clip["partner"] = {{"motion", "bob.bvh"}, {"audio", "bob.wav"}};
+    for (const bool both : {true, false}) {
+        json_["clips"][0]["cut"] = {0.1, 0.9};
+        json_["clips"][1]["cut"] = {0.5, 1.3};
+        if (!both) json_["clips"][1].erase("cut");
+        const Plan read = plan();
+        std::size_t moved = 0;
+        for (const Video& video : draft_study(read, 1, fake_.maker()).videos) {
+            const auto &own = read.clips[video.shows.clip].cut, &other = read.clips[video.motion].cut;
+            ASSERT_EQ(video.job.performers.size(), 2u);
+            const auto& agent = cut_of(video.job.performers[0], video.job);
+            const auto& partner = cut_of(video.job.performers[1], video.job);
+            EXPECT_EQ(video.motion != video.shows.clip, video.shows.conditions[0] >= 2);
+            EXPECT_EQ(video.speech, video.shows.clip);
+            EXPECT_EQ(video.job.performers[0].motion,
+                      read.clips[video.motion].motions[video.shows.conditions[0] % 2]);
+            EXPECT_EQ(video.job.performers[0].voice, read.clips[video.shows.clip].audio);
+            EXPECT_EQ(video.job.cut.has_value(), own.has_value());
+            EXPECT_EQ(partner.has_value(), own.has_value());
+            EXPECT_EQ(agent.has_value(), own.has_value() || other.has_value());
+            if (own) {
+                EXPECT_EQ(partner->begin, own->begin);
+            }
+            if (agent) {
+                EXPECT_EQ(agent->begin, other ? other->begin : 0);
+                EXPECT_EQ(agent->end, other ? other->end : std::nullopt);
+            }
+            moved += video.motion != video.shows.clip;
+        }
+        EXPECT_EQ(moved, 4u);
     }
 }
 

@@ -140,8 +140,7 @@ TEST(FollowWalkers, HoldsTheHipsInPlaceAndMovesTheLegs) {
 TEST(FollowWalkers, HasOneCameraForAllThatItFollows) {
     ClipJob walker = job_of(kWalk, Travel::follow),
             waver = job_of("tests/fixtures/gestures/wave.bvh", Travel::follow);
-    const std::vector<FollowedMotion> both = {{.performer = walker.performers[0]},
-                                              {.performer = waver.performers[0]}};
+    const std::vector<Performer> both = {walker.performers[0], waver.performers[0]};
     walker.performers[0].followed = waver.performers[0].followed = both;
     const Walked a(walker), b(waver);
     ASSERT_EQ(a.people[0].travelled.size(), b.people[0].travelled.size());

@@ -52,11 +52,11 @@ class PlanFromFolders : public ::testing::Test {
     }
 
     Outcome plan(const Words& more = {}) const {
-        Words words = {
-            "study",        "plan",    "--from-folders", "ours=" + in("ours"), "baseline=" + in("base"),
-            "--audio",      in("wav"), "--segments",     in("segments.csv"),   "--preset",
-            "mismatch-2025"};
+        Words words = {"study",   "plan",    "--from-folders", "ours=" + in("ours"), "baseline=" + in("base"),
+                       "--audio", in("wav"), "--segments",     in("segments.csv")};
         words.insert(words.end(), more.begin(), more.end());
+        if (std::find(more.begin(), more.end(), "--preset") == more.end())
+            words.insert(words.end(), {"--preset", "realism-2025"});
         return run_chironomia(words);
     }
     std::string in(const std::string& name) const { return (folder_ / name).string(); }
@@ -70,7 +70,7 @@ TEST_F(PlanFromFolders, HasAClipForEachSegment) {
     EXPECT_THAT(made.out, HasSubstr(in("plan.json") + "\n3 of 3 segments are clips; all match\n"));
     EXPECT_THAT(made.out, HasSubstr("conditions    ours, baseline"));
     const Json plan = read_json(folder_ / "plan.json");
-    EXPECT_EQ(plan["preset"], "mismatch-2025");
+    EXPECT_EQ(plan["preset"], "realism-2025");
     EXPECT_EQ(plan["conditions"], Json({"ours", "baseline"}));
     ASSERT_EQ(plan["clips"].size(), 3u);
     const Json& clip = plan["clips"][2];
@@ -80,6 +80,84 @@ TEST_F(PlanFromFolders, HasAClipForEachSegment) {
     EXPECT_EQ(clip["audio"], "wav/2_scott_0_1_1.wav");
     EXPECT_EQ(clip["motion"],
               Json({{"ours", "ours/2_scott_0_1_1.npz"}, {"baseline", "base/2_scott_0_1_1.npz"}}));
+}
+
+// GENEA 2023 calls the two "main-agent" and "interloctr".
+TEST_F(PlanFromFolders, PutsPartnersIntoTheClips) {
+    for (const char* name : {"tst_0_main-agent", "tst_1_main-agent"}) {
+        for (const char* system : {"ours", "base"}) write_motion(format("{}/{}.npz", system, name), 4);
+        write_sound(name);
+    }
+    for (const char* name : {"tst_0_interloctr", "1_wayne_0_1_1", "eve"}) {
+        write_motion(format("partner/{}.npz", name), 4);
+        fs::create_directories(folder_ / "partner_wav");
+        fs::copy_file(testing::source_dir() / "assets/samples/speech/simple-idea.wav",
+                      folder_ / format("partner_wav/{}.wav", name));
+    }
+    testing::write_npz(folder_ / "partner/eve.npz", {{"poses", {60, 165}, std::vector<double>(60 * 165, 0.0)},
+                                                     {"trans", {60, 3}, std::vector<double>(60 * 3, 0.0)}});
+    write_text(folder_ / "segments.csv",
+               "file_name,partner_file_name,start_seconds,end_seconds,speaker\n"
+               "tst_0_main-agent.wav,,0,1,a\n1_wayne_0_1_1,,1,2,a\n2_scott_0_1_1,eve.wav,0.5,1.5,a\n");
+    const Words partners = {"--partner",       in("partner"),  "--partner-audio",
+                            in("partner_wav"), "--motion-fps", "20"};
+    Words more = partners;
+    more.insert(more.end(), {"--out", in("plan.json"), "--preset", "genea-2023-interlocutor"});
+    const Outcome lacking = plan(more);
+    EXPECT_EQ(lacking.exit_code, 1);
+    EXPECT_THAT(lacking.err, HasSubstr("ours: no segment names tst_1_main-agent\n"));
+    const Json clips = read_json(folder_ / "plan.json")["clips"];
+    ASSERT_EQ(clips.size(), 3u);
+    EXPECT_EQ(clips[0]["partner"], Json({{"motion", "partner/tst_0_interloctr.npz"},
+                                         {"audio", "partner_wav/tst_0_interloctr.wav"}}));
+    EXPECT_EQ(clips[1]["partner"]["motion"], "partner/1_wayne_0_1_1.npz");
+    EXPECT_EQ(
+        clips[2]["partner"],
+        Json({{"motion", "partner/eve.npz"}, {"hints", {{"fps", 20.0}}}, {"audio", "partner_wav/eve.wav"}}));
+    EXPECT_EQ(read_json(folder_ / "plan.json").contains("hints"), false);
+
+    write_table("tst_1_main-agent,0,1,1\n1_wayne_0_1_1,0,1,1\n");
+    const Outcome missing = plan(partners);
+    EXPECT_THAT(missing.err,
+                HasSubstr(":2: tst_1_main-agent_0-30: tst_1_interloctr is not among the motions of the "
+                          "partners\n"));
+    EXPECT_THAT(missing.err, HasSubstr("tst_1_interloctr is not among the sounds of the partners\n"));
+    EXPECT_THAT(missing.err, HasSubstr(in("partner") + ": no segment names eve, tst_0_interloctr\n"));
+    EXPECT_EQ(Json::parse(missing.out)["clips"].size(), 1u);
+    const Outcome alone = plan({"--partner-audio", in("partner_wav")});
+    EXPECT_EQ(alone.exit_code, 2);
+    EXPECT_THAT(alone.err, HasSubstr("--partner-audio requires --partner"));
+}
+
+// A study whose agents move as in another segment, beside the partner of this one.
+TEST_F(PlanFromFolders, BecomesAStudyOfWhoRespondsToThePartner) {
+    for (const char* name : {"1_wayne_0_1_1", "2_scott_0_1_1"})
+        write_motion(format("partner/{}.npz", name), 4);
+    write_text(folder_ / "segments.csv",
+               "file_name,start_seconds,end_seconds,speaker\n1_wayne_0_1_1,0,0.2,a\n2_scott_0_1_1,3,3.2,a\n");
+    ASSERT_EQ(
+        plan({"--partner", in("partner"), "--out", in("plan.json"), "--preset", "genea-2023-interlocutor"})
+            .exit_code,
+        0);
+    Json written = read_json(folder_ / "plan.json");
+    written["render"] = {{"size", {64, 36}}};
+    written["checks"] = {{"count", 0}};
+    written["participants"] = 2;
+    write_json(folder_ / "plan.json", written);
+    const Outcome built =
+        run_chironomia({"study", "build", in("plan.json"), "--out", in("study"), "--seed", "1", "--quiet"});
+    ASSERT_EQ(built.exit_code, 0) << built.err;
+    std::size_t moved = 0;
+    const Json key = read_json(folder_ / "study/private/key.json");
+    for (const Json& video : key["videos"]) {
+        const std::string condition = video["conditions"][0];
+        EXPECT_EQ(video["speech"], video["clip"]);
+        EXPECT_EQ(video["motion"] != video["clip"], condition.ends_with("(mismatched)"));
+        EXPECT_EQ(video["frames"], 6);
+        moved += video["motion"] != video["clip"];
+    }
+    EXPECT_EQ(moved, 4u);
+    EXPECT_EQ(run_chironomia({"study", "check", in("study")}).exit_code, 0);
 }
 
 TEST_F(PlanFromFolders, HintsTheRateOfMotionsThatCarryNone) {
