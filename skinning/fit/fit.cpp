@@ -24,6 +24,7 @@
 #include "skinning/fit/resolve_interpenetration.h"
 #include "skinning/fit/restore_contacts.h"
 #include "skinning/lift/lift.h"
+#include "skinning/lift/side_swaps.h"
 #include "skinning/quality/motion_checks.h"
 #include "skinning/shape/measure_shape.h"
 #include "skinning/signal/resample.h"
@@ -177,6 +178,7 @@ InSpace in_space(const Motion& motion, const FitOptions& options, FitReport& rep
                                                              .pixels_per_metre = camera.unit});
     for (const LandmarkCutoff& cutoff : lifted.cutoffs)
         lift_report.cutoffs_hz.emplace_back(name_of(cutoff.landmark), cutoff.hertz);
+    for (const SideSwap& swap : lifted.swaps) report.put_back.push_back(to_text(swap));
     for (const LandmarkGaps& gaps : lifted.gaps) {
         const std::string_view name = name_of(gaps.landmark);
         if (gaps.bridged > 0) report.bridged.push_back(format("{}: {} frames", name, gaps.bridged));

@@ -247,7 +247,8 @@ Json to_json(const FitReport& report) {
                    {"frames", report.source_frames},
                    {"found", to_json(report.findings, report.source_fps)}}},
                  {"bridged_gaps", report.bridged},
-                 {"rested_gaps", report.rested}};
+                 {"rested_gaps", report.rested},
+                 {"sides_put_back", report.put_back}};
     if (const auto& kept = report.contact_moves) {
         json["touch"] = {{"frames_moved", kept->frames},
                          {"most_wrist_mm", 1000 * kept->most_wrist},

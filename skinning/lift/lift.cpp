@@ -300,6 +300,7 @@ Lift lift(const Motion& motion, const LiftOptions& options) {
 
     Lift lifted{.motion = {},
                 .scale = scale,
+                .swaps = std::move(clean.swaps),
                 .gaps = std::move(clean.gaps),
                 .cutoffs = std::move(clean.cutoffs),
                 .nearest = walking.nearest(),

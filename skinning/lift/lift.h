@@ -13,9 +13,11 @@
 namespace chironomia {
 
 struct LiftOptions {
-    std::optional<double> cutoff{};  // of the zero-phase low-pass [Hz]; 0: none; not set: chosen by the noise
-                                     // of each point, at most kHighestCutoff
-    double distance = 4;             // of the camera, if its lens is not known (walking_camera.h) [m]
+    std::optional<double>
+        cutoff{};         // of the zero-phase low-pass [Hz]; 0: none, and left and right stay as the
+                          // detector has them; not set: chosen by the noise of each point, at most
+                          // kHighestCutoff
+    double distance = 4;  // of the camera, if its lens is not known (walking_camera.h) [m]
 };
 
 // "auto" (not set), "off" (0) or a cutoff in Hz, from 0.1 to 100. Throws Error otherwise.
@@ -24,6 +26,7 @@ std::optional<double> lift_cutoff_named(std::string_view name);
 struct Lift {
     Motion motion;  // keypoints in space, +y up; a person who faces the camera faces +z [m]
     BodyScale scale;
+    std::vector<SideSwap> swaps;  // of left and right that were undone
     std::vector<LandmarkGaps> gaps;
     std::vector<LandmarkCutoff> cutoffs;  // of the points that were filtered
     double nearest = 0;                   // how near the person comes to the camera [m]

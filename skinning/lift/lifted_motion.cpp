@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/text.h"
+#include "skinning/lift/side_swaps.h"
 
 namespace chironomia {
 
@@ -26,6 +27,10 @@ Motion with_lifted_points(const Motion& motion, const LiftOptions& options) {
             format("the person walks, {:.1f} to {:.1f} m before the camera, as estimated from its size",
                    lifting.nearest, lifting.farthest));
     }
+    std::vector<std::string> swaps;
+    for (const SideSwap& swap : lifting.swaps) swaps.push_back(to_text(swap));
+    if (!swaps.empty())
+        result.notes.push_back("left and right were exchanged for a moment and are put back: " + join(swaps));
     for (const auto& [landmark, bridged, rested] : lifting.gaps) {
         result.notes.push_back(
             format("{}: bridged in {} frames, at rest in {}", name_of(landmark), bridged, rested));

@@ -9,6 +9,7 @@
 
 #include "core/text.h"
 #include "skinning/lift/noise_filter.h"
+#include "skinning/lift/side_swaps.h"
 
 namespace chironomia {
 namespace {
@@ -149,9 +150,10 @@ bool is_one_place(const PictureTrack& track, size_t t) {
 }
 
 CleanPicture clean_picture(const PictureTrack& track, size_t frames, const PictureCleaning& cleaning) {
-    CleanPicture clean{.body = seen_points(track, frames), .gaps = {}, .cutoffs = {}};
+    CleanPicture clean{.body = seen_points(track, frames), .swaps = {}, .gaps = {}, .cutoffs = {}};
     PictureBody& body = clean.body;
     take_face_points(body, track);
+    if (cleaning.cutoff != 0.0) clean.swaps = undo_side_swaps(body, cleaning.fps);
     std::optional<NoiseFilter> filter;
     if (!cleaning.cutoff) filter = NoiseFilter::adaptive(kHighestCutoff, cleaning.fps);
     if (cleaning.cutoff > 0.0) filter = NoiseFilter::fixed(*cleaning.cutoff, cleaning.fps);

@@ -50,17 +50,25 @@ struct LandmarkCutoff {
     double hertz = 0;  // the highest over stretches and both directions
 };
 
+// A point and its mirror image, and in how many frames the detector took one for the other.
+struct SideSwap {
+    Landmark left = Landmark::left_wrist;
+    size_t frames = 0;
+};
+
 struct CleanPicture {
     PictureBody body;
+    std::vector<SideSwap> swaps;          // that were undone (side_swaps.h), in the order of Landmark
     std::vector<LandmarkGaps> gaps;       // of the landmarks that have any, in the order of Landmark
     std::vector<LandmarkCutoff> cutoffs;  // of the landmarks that were filtered, in the order of Landmark
 };
 
 struct PictureCleaning {
     double fps = 30;
-    double longest_bridge = 0.5;     // [s]
-    std::optional<double> cutoff{};  // of the zero-phase low-pass over stretches without a gap [Hz]; 0: none,
-                                     // not set: chosen for each point (noise_filter.h)
+    double longest_bridge = 0.5;  // [s]
+    std::optional<double>
+        cutoff{};  // of the zero-phase low-pass over stretches without a gap [Hz]; 0: none, and
+                   // swaps stay; not set: chosen for each point (noise_filter.h)
 };
 
 // Whether a frame has several points and all of them in one place: nobody is seen there.

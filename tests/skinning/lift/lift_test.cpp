@@ -183,6 +183,55 @@ TEST(Lift, BridgesShortGapsAndReportsLongOnes) {
 
 // A step forward makes a person look larger by 8 %. The knees of earlier frames are not bent for that, and not by a
 // stretch in which nobody is seen.
+// As a detector that takes left for right in some frames has them: all points, or those whose names hold `part`.
+Motion with_sides_exchanged(Motion motion, size_t first, size_t last, std::string_view part = "") {
+    PictureTrack& track = *motion.picture;
+    const auto column = [&](std::string_view name) {
+        return size_t(std::find(track.names.begin(), track.names.end(), name) - track.names.begin());
+    };
+    for (size_t left = 0; left < track.names.size(); ++left) {
+        const std::string& name = track.names[left];
+        if (!name.starts_with("left_") || name.find(part) == name.npos) continue;
+        const size_t right = column(name_of(mirrored(*landmark_named(name))));
+        for (size_t t = first; t < last; ++t) {
+            const size_t row = t * track.names.size();
+            std::swap(track.points[row + left], track.points[row + right]);
+            std::swap(track.confidence[row + left], track.confidence[row + right]);
+        }
+    }
+    return motion;
+}
+
+TEST(Lift, PutsBackSidesThatWereExchangedForAMoment) {
+    const Motion seen = film(sample(kBeats), {}).picture;
+    const Lift right = lift(seen);
+    EXPECT_TRUE(right.swaps.empty());
+    for (const char* part : {"", "knee", "hip"}) {
+        const Motion exchanged = with_sides_exchanged(seen, 20, 23, part);
+        const Lift lifted = lift(exchanged);
+        EXPECT_EQ(lifted.motion.keypoints->points, right.motion.keypoints->points) << part;
+        EXPECT_NE(lift(exchanged, {.cutoff = 0}).motion.keypoints->points,
+                  lift(seen, {.cutoff = 0}).motion.keypoints->points)
+            << part;
+    }
+    EXPECT_THAT(
+        with_lifted_points(with_sides_exchanged(seen, 20, 23, "knee")).notes,
+        ::testing::Contains("left and right were exchanged for a moment and are put back: knee: 3 frames"));
+    EXPECT_TRUE(lift(with_sides_exchanged(seen, 20, 40)).swaps.empty()) << "for longer it may be a turn";
+    EXPECT_TRUE(lift(with_sides_exchanged(seen, 0, 3)).swaps.empty()) << "nobody knows what was before";
+}
+
+// Legs pass each other in a picture from the side, hands before the body.
+TEST(Lift, LeavesLimbsThatCross) {
+    for (const char* name : {kWalk, kJacks, kBeats}) {
+        for (const double yaw : {0.0, 45.0, 90.0}) {
+            const Motion seen = film(sample(name), {.yaw_deg = yaw, .noise = 3, .drop_outs = 0.05}).picture;
+            for (const SideSwap& swap : lift(seen).swaps)
+                ADD_FAILURE() << name << " " << yaw << " " << name_of(swap.left) << " " << swap.frames;
+        }
+    }
+}
+
 TEST(Lift, LetsWhoStepsForwardStandOnStraightLegs) {
     Trial trial = film(sample(kBeats), {});
     PictureTrack& picture = *trial.picture.picture;
