@@ -42,6 +42,24 @@ class KeysOnce {
     std::vector<Object> objects_;
 };
 
+// Python writes NaN where JSON has null. Empty: there is none outside of texts.
+std::string with_null_for_nan(std::string_view text) {
+    constexpr std::string_view kNan = "NaN";
+    std::string with_null;
+    bool in_text = false, found = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const bool is_nan = !in_text && text.substr(i).starts_with(kNan);
+        if (text[i] == '"') in_text = !in_text;
+        with_null += is_nan ? "null" : text.substr(i, in_text && text[i] == '\\' ? 2 : 1);
+        if (is_nan)
+            i += kNan.size() - 1;
+        else if (in_text && text[i] == '\\')
+            ++i;
+        found = found || is_nan;
+    }
+    return found ? with_null : "";
+}
+
 }  // namespace
 
 Json parse_json(const std::string& text, const std::filesystem::path& file) {
@@ -52,6 +70,8 @@ Json parse_json(const std::string& text, const std::filesystem::path& file) {
     try {
         return Json::parse(text, KeysOnce(file));
     } catch (const Json::parse_error& problem) {
+        if (const std::string mended = with_null_for_nan(text); !mended.empty())
+            return parse_json(mended, file);
         if (trim(text).empty()) throw Error(format("{}: the file is empty; JSON is expected", file.string()));
         if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') < 4)
             throw Error(format("{}: it is UTF-16; save it as UTF-8", file.string()));

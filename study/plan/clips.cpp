@@ -4,6 +4,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "scenes/scene_file.h"
+#include "skinning/motion/picture/openpose.h"
 #include "study/design/mismatch.h"
 #include "study/plan/parts.h"
 #include "synth/speakers/speakers.h"
@@ -45,9 +46,15 @@ std::vector<fs::path> read_faces(const JsonValue& value, const std::string& clip
     return faces;
 }
 
+// A file, or the folder that OpenPose writes for a clip.
+fs::path read_motion_path(const JsonValue& value, const fs::path& folder) {
+    const fs::path found = find_path(folder, value.text());
+    return is_openpose_folder(found) ? found : read_path(value, folder);
+}
+
 PlanPartner read_partner(const JsonValue& value, const fs::path& folder, const PlanClip& clip) {
     value.allow_only(keys_of("clips[].partner"));
-    PlanPartner partner{.motion = read_path(value.at("motion"), folder)};
+    PlanPartner partner{.motion = read_motion_path(value.at("motion"), folder)};
     if (const auto hints = value.find("hints")) {
         partner.hints = read_hints_of_condition(*hints, folder);
         partner.hints_as_written = hints->json();
@@ -168,7 +175,7 @@ void read_motions(const JsonValue& value, const fs::path& folder, const Plan& pl
     if (!given.empty()) value.at("motion").allow_only(given);
     for (const PlanCondition& condition : plan.conditions) {
         const bool is_given = condition.making == Making::given;
-        clip.motions.push_back(is_given ? read_path(value.at("motion").at(condition.name), folder)
+        clip.motions.push_back(is_given ? read_motion_path(value.at("motion").at(condition.name), folder)
                                         : fs::path());
     }
 }

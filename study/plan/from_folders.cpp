@@ -15,6 +15,7 @@
 #include "core/utf8.h"
 #include "raster/ffmpeg/clip_info.h"
 #include "skinning/motion/motion_file.h"
+#include "skinning/motion/picture/openpose.h"
 #include "study/plan/parts.h"
 #include "synth/text/letters.h"
 
@@ -122,11 +123,21 @@ FilesByName files_that_end(const fs::path& folder, const std::vector<std::string
     return files;
 }
 
+// A folder of OpenPose is a motion.
+FilesByName openpose_folders(const fs::path& folder) {
+    FilesByName found;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (is_openpose_folder(entry.path()))
+            found[composed(entry.path().filename().string())] = {entry.path()};
+    return found;
+}
+
 FilesByName list_by_name(const fs::path& folder, const Endings& endings) {
     if (!fs::is_directory(folder))
         throw Error(format("{}: there is no such folder; check the path", folder.string()));
     FilesByName files = files_that_end(folder, endings.usual);
     if (files.empty()) files = files_that_end(folder, endings.others);
+    if (files.empty() && &endings == &endings_of_motions()) files = openpose_folders(folder);
     if (files.empty()) {
         throw Error(format("{}: holds no file that ends in {}; name the folder that does", folder.string(),
                            endings.list()));

@@ -15,6 +15,9 @@ inline constexpr double kLatestCut = 36000;  // of a clip, where it begins or en
 
 const std::vector<std::string>& keys_of(std::string_view object);
 
+// The path below `folder`, whatever the form of its accents; it need not be there.
+std::filesystem::path find_path(const std::filesystem::path& folder, const std::filesystem::path& written);
+
 // A file named by the plan, which must be there.
 std::filesystem::path read_path(const JsonValue& value, const std::filesystem::path& folder);
 

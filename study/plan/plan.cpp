@@ -39,6 +39,14 @@ void require_texts_of_language(const JsonValue& whole, const std::string& langua
     }
 }
 
+}  // namespace
+
+const std::vector<std::string>& keys_of(std::string_view object) {
+    const auto& all = plan_keys();
+    return std::find_if(all.begin(), all.end(), [&](const PlanKeys& each) { return each.object == object; })
+        ->keys;
+}
+
 // The path below a folder whose names are these letter by letter, even where one writes an accent as a letter of its
 // own, as file systems of Apple do; as it is written if there is none. The folder itself may not be there yet.
 fs::path find_path(const fs::path& folder, const fs::path& written) {
@@ -55,14 +63,6 @@ fs::path find_path(const fs::path& folder, const fs::path& written) {
         found = std::move(next);
     }
     return found;
-}
-
-}  // namespace
-
-const std::vector<std::string>& keys_of(std::string_view object) {
-    const auto& all = plan_keys();
-    return std::find_if(all.begin(), all.end(), [&](const PlanKeys& each) { return each.object == object; })
-        ->keys;
 }
 
 fs::path read_path(const JsonValue& value, const fs::path& folder) {

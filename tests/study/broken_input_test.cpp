@@ -152,7 +152,11 @@ TEST_F(BrokenOpenPose, NumbersThatAreNoneAreRefused) {
     std::string text = read_text(file(5));
     text.replace(text.find("null"), 4, "NaN");
     write_text(file(5), text);
-    EXPECT_THAT(refusal(), AllOf(HasSubstr("clip_000000000005_keypoints.json:"), HasSubstr("no valid JSON")));
+    EXPECT_THAT(refusal(),
+                HasSubstr("clip_000000000005_keypoints.json: pose_keypoints_2d: number 6 is null"));
+    for (int i = 7; i < 9; ++i)
+        change(5, [&](Json& people) { people[0]["pose_keypoints_2d"][size_t(i)] = nullptr; });
+    expect_fitted();
 }
 
 TEST_F(BrokenOpenPose, AnotherNumberOfPointsIsRefused) {

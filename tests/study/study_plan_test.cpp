@@ -6,6 +6,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "study/build/composition.h"
+#include "study/build/inputs.h"
 #include "study/plan/attention.h"
 #include "study/plan/plan.h"
 #include "study/plan/presets.h"
@@ -674,6 +675,21 @@ TEST_F(StudyPlan, FindsFilesWhoseAccentsAreWrittenOtherwise) {
     Json clips = sample_plan()["clips"];
     clips[1]["motion"]["ours"] = "Zoe\u0301/cafe\u0301.bvh";
     EXPECT_EQ(read_with({{"clips", clips}}).clips[1].motions[0], folder_ / "Zo\u00e9/caf\u00e9.bvh");
+}
+
+TEST_F(StudyPlan, TakesFoldersOfOpenPoseForMotions) {
+    const std::filesystem::path tracks = testing::test_file("tests/fixtures/gestures/openpose_24fps");
+    std::filesystem::copy(tracks, folder_ / "tracks");
+    Json json = sample_plan();
+    for (Json& clip : json["clips"]) clip["motion"]["ours"] = "tracks";
+    json["hints"]["ours"]["fps"] = 24;
+    const Plan plan = read(json);
+    EXPECT_EQ(plan.clips[0].motions[0], folder_ / "tracks");
+    EXPECT_THAT(list_inputs(plan),
+                ::testing::Contains(::testing::Field(&InputFile::path, HasSubstr("tracks/"))));
+    json["clips"][0]["motion"]["ours"] = "base";
+    EXPECT_EQ(refusal(json),
+              "plan.json: clips[0].motion.ours: \"base\" is a folder, a file is needed; name a file in it");
 }
 
 // The folder of a plan that is named alone is the current one, which has no parent in its name.

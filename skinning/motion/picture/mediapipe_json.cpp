@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "skinning/motion/picture/person_tracker.h"
 #include "skinning/motion/points/keypoint_data.h"
 #include "skinning/motion/points/keypoint_json.h"
 
@@ -68,13 +69,62 @@ struct MediaPipePoint {
     double confidence = 0;
 };
 
+std::vector<PersonPoint> points_in_picture(const Json& person) {
+    constexpr float kFarthestShare = 1e4f;  // ours, of the picture's sides
+    std::vector<PersonPoint> points(kPose);
+    if (!person.is_array()) return points;
+    for (size_t k = 0; k < std::min(kPose, person.size()); ++k) {
+        const Json& point = person[k];
+        const auto number = [&](size_t column, const char* name) {
+            const bool is_there = point.is_array() ? column < point.size() : point.contains(name);
+            const Json value = !is_there ? Json() : point.is_array() ? point[column] : point[name];
+            return value.is_number() ? value.get<float>() : std::nanf("");
+        };
+        const Vec2 place(number(0, "x"), number(1, "y"));
+        const float visibility = number(3, "visibility");
+        if (!(glm::length(place) < kFarthestShare)) continue;
+        points[k] = {.place = place, .confidence = std::isnan(visibility) ? 1 : visibility};
+    }
+    return points;
+}
+
+// Which of the people of each frame is shown. Places in space are around everybody's own hips, so those in the picture
+// say who is who; without them it is the first of each frame.
+struct ShownPeople {
+    std::vector<std::optional<size_t>> of_frames;  // nothing: nobody, or the person is hidden
+    std::vector<std::string> notes;
+};
+
+ShownPeople choose_people(const Json& frames) {
+    ShownPeople shown{.of_frames = std::vector<std::optional<size_t>>(frames.size(), 0), .notes = {}};
+    size_t crowded = 0;
+    const bool is_in_picture = has_part(frames, kPicture[0]);
+    PersonTracker tracker;
+    for (size_t t = 0; t < frames.size(); ++t) {
+        const Json* list = find_part(frames[t], is_in_picture ? kPicture[0] : kWorld[0]);
+        const bool is_of_people =
+            list && list->is_array() && !list->empty() && is_list_of_people(list->at(0));
+        if (!is_of_people) continue;
+        crowded += list->size() > 1;
+        if (!is_in_picture) continue;
+        std::vector<std::vector<PersonPoint>> people;
+        for (const Json& person : *list) people.push_back(points_in_picture(person));
+        shown.of_frames[t] = tracker.choose(people, kPose);
+    }
+    shown.notes = tracker.notes();
+    if (crowded > 0 && !is_in_picture)
+        shown.notes.push_back(format("several people in {} frames; the first of each is taken", crowded));
+    return shown;
+}
+
 // Reads one kind of landmarks, frame by frame.
 class PartsReader {
   public:
-    PartsReader(const Json& frames, const Parts& parts, const std::string& where)
+    PartsReader(const Json& frames, const Parts& parts, const std::string& where, const ShownPeople& people)
         : frames_(frames),
           parts_(parts),
           where_(where),
+          people_(people),
           has_hands_(has_part(frames, parts[1]) || has_part(frames, parts[2])) {}
 
     // (T, 33) or, with hands, (T, 75).
@@ -89,8 +139,6 @@ class PartsReader {
         return all;
     }
 
-    size_t crowded() const { return crowded_; }
-
   private:
     static std::string text_of(const Json& json) {
         return json.dump(-1, ' ', true, Json::error_handler_t::replace).substr(0, 60);
@@ -104,8 +152,8 @@ class PartsReader {
         const Json* list = find_part(frames_[t_], part);
         if (list && list->is_object() && list->contains("landmark")) list = &list->at("landmark");
         if (list && list->is_array() && !list->empty() && is_list_of_people(list->at(0))) {
-            crowded_ += list->size() > 1;
-            list = &list->at(0);
+            const auto person = people_.of_frames[t_];
+            list = person && *person < list->size() ? &list->at(*person) : nullptr;
         }
         if (!list || list->is_null() || list->empty()) {
             points.resize(points.size() + part.points);
@@ -145,8 +193,8 @@ class PartsReader {
     const Parts& parts_;
     const std::string& where_;
     bool has_hands_;
+    const ShownPeople& people_;
     size_t t_ = 0;
-    size_t crowded_ = 0;
 };
 
 // Hands around their own middles go to the wrists of the pose, or are missing where it is.
@@ -201,29 +249,24 @@ bool holds_mediapipe(const Json& json) {
 Motion motion_of_mediapipe(const Json& json, const std::string& where, std::optional<double> fps) {
     const Json& frames = frames_of(json);
     std::optional<Motion> space, picture;
-    size_t crowded = 0;
-    std::vector<std::string> notes;
+    const ShownPeople people = choose_people(frames);
     if (has_part(frames, kWorld[0])) {
-        PartsReader reader(frames, kWorld, where);
+        PartsReader reader(frames, kWorld, where, people);
         auto points = reader.read();
         for (auto& frame : points) set_hands_to_wrists(frame);
         KeypointData data = data_of(points, json, where);
         data.in_space = true;
         space = name_keypoints(std::move(data), fps, {});
-        crowded = reader.crowded();
     }
     if (has_part(frames, kPicture[0])) {
-        PartsReader reader(frames, kPicture, where);
+        PartsReader reader(frames, kPicture, where, people);
         KeypointData data = picture_data(json, reader.read(), where);
         data.known_order = true;
-        crowded = std::max(crowded, reader.crowded());
         picture = name_keypoints(std::move(data), fps, {});
     }
     Motion motion = space ? std::move(*space) : std::move(*picture);
     if (space && picture) motion.picture = std::move(picture->picture);
-    motion.notes.insert(motion.notes.end(), notes.begin(), notes.end());
-    if (crowded > 0)
-        motion.notes.push_back(format("several people in {} frames; the first of each is taken", crowded));
+    motion.notes.insert(motion.notes.end(), people.notes.begin(), people.notes.end());
     return motion;
 }
 

@@ -19,12 +19,18 @@ namespace {
 constexpr std::string_view kEnding = "_keypoints.json";
 constexpr std::size_t kHandPoints = 21;
 
+// macOS writes a "._NAME" for a file on a disk of another system.
+bool is_of_a_frame(const fs::path& file) {
+    const std::string name = file.filename().string();
+    return name.ends_with(kEnding) && !name.starts_with('.');
+}
+
 // The files by the number in their names.
 std::map<std::size_t, fs::path> numbered_files(const fs::path& folder) {
     std::map<std::size_t, fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder)) {
+        if (!is_of_a_frame(entry.path())) continue;
         const std::string name = entry.path().filename().string();
-        if (!name.ends_with(kEnding)) continue;
         const std::string stem = name.substr(0, name.size() - kEnding.size());
         const std::size_t digits = stem.find_last_not_of("0123456789") + 1;
         const auto number = parse_number(stem.substr(digits));
@@ -143,9 +149,10 @@ class FolderReader {
         layout_ = points == 25 ? "BODY_25" : "COCO-18";
     }
 
-    // 0 0 0 is a point that was not found.
+    // 0 0 0 is a point that was not found, and so is a place of NaN, which is null here.
     static PersonPoint read_point(const Json& numbers, std::size_t k, const char* key,
                                   const std::string& where) {
+        if (numbers[3 * k].is_null() && numbers[3 * k + 1].is_null()) return {};
         double values[3];
         for (std::size_t i = 0; i < 3; ++i) {
             const Json& number = numbers[3 * k + i];
@@ -189,7 +196,7 @@ std::vector<std::string> openpose_face_names() {
 bool is_openpose_folder(const fs::path& folder) {
     if (!fs::is_directory(folder)) return false;
     for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.path().filename().string().ends_with(kEnding)) return true;
+        if (is_of_a_frame(entry.path())) return true;
     }
     return false;
 }
@@ -227,11 +234,7 @@ Motion read_openpose(const fs::path& folder, std::optional<double> fps) {
     if (late_beginning_of(motion)) motion.notes.push_back(first_time_note(motion.first_time));
     if (frames > files.size())
         motion.notes.push_back(format("{} frames have no file", frames - files.size()));
-    if (reader.tracker().crowded() > 0) {
-        motion.notes.push_back(
-            format("several people in {} frames; followed one by place, {} choices were close",
-                   reader.tracker().crowded(), reader.tracker().doubtful()));
-    }
+    for (std::string& note : reader.tracker().notes()) motion.notes.push_back(std::move(note));
     return motion;
 }
 

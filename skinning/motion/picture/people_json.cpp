@@ -34,7 +34,29 @@ bool is_frame_of_people(const Json& json) {
     return find_people_list(json, "instances") && json.contains("frame_id");
 }
 
+// Of one picture what Ultralytics calls a result: {"keypoints": {"x": [...], "y": [...], "visible": [...]}} for each
+// person.
+bool is_list_of_detections(const Json& json) {
+    const auto is_detection = [](const Json& each) {
+        return each.is_object() && each.contains("keypoints") && find_people_list(each["keypoints"], "x");
+    };
+    return json.is_array() && std::all_of(json.begin(), json.end(), is_detection);
+}
+
+// An annotation of COCO that marks where somebody is, and no points.
+bool is_box(const Json& json) {
+    if (!json.is_object() || !json.contains("image_id") || !json.contains("category_id")) return false;
+    const Json* points = find_people_list(json, "keypoints");
+    return !points || points->empty();
+}
+
+// What somebody marked in pictures, in COCO's form.
+const Json* find_annotations(const Json& json) {
+    return json.is_object() && json.contains("images") ? find_people_list(json, "annotations") : nullptr;
+}
+
 const Json& people_list(const Json& json) {
+    if (const Json* annotations = find_annotations(json)) return *annotations;
     const Json* inner = find_people_list(json, "instance_info");
     return inner ? *inner : json;
 }
@@ -72,7 +94,13 @@ class PeopleReader {
 
     std::vector<SeenFrame> read(const Json& list) {
         for (const Json& entry : list) {
-            if (is_result_of_people(entry)) {
+            if (is_list_of_detections(entry)) {
+                SeenFrame& frame = frame_of(frames_.size());
+                for (const Json& detection : entry)
+                    frame.people.push_back(read_detection(detection["keypoints"]));
+            } else if (is_box(entry)) {
+                frame_of(entry["image_id"]);
+            } else if (is_result_of_people(entry)) {
                 SeenFrame& frame = frame_of(entry["image_id"]);
                 frame.people.push_back(read_row(entry["keypoints"]));
                 frame.time = time_in(entry);
@@ -134,9 +162,29 @@ class PeopleReader {
         expect_points(row.size() / 3, 2);
         SeenPerson person;
         for (std::size_t i = 0; i < row.size(); i += 3) {
+            if (row[i].is_null() && row[i + 1].is_null()) {  // NaN
+                person.places.emplace_back(0);
+                person.confidence.push_back(0);
+                continue;
+            }
             person.places.emplace_back(number(row[i], -kFarthestPixel, kFarthestPixel),
                                        number(row[i + 1], -kFarthestPixel, kFarthestPixel), 0);
             person.confidence.push_back(std::min(number(row[i + 2], 0, kSurest), 1.0));
+        }
+        return person;
+    }
+
+    SeenPerson read_detection(const Json& points) {
+        const Json &x = points["x"], *y = find_people_list(points, "y"),
+                   *sure = find_people_list(points, "visible");
+        if (!y || y->size() != x.size() || (sure && sure->size() != x.size()))
+            refuse(format("its \"keypoints\" are {}; as many x as y are expected", text_of_people(points)));
+        expect_points(x.size(), 2);
+        SeenPerson person;
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            person.places.emplace_back(number(x[k], -kFarthestPixel, kFarthestPixel),
+                                       number((*y)[k], -kFarthestPixel, kFarthestPixel), 0);
+            person.confidence.push_back(sure ? std::min(number((*sure)[k], 0, kSurest), 1.0) : 1);
         }
         return person;
     }
@@ -222,6 +270,25 @@ std::vector<double> times_of(const std::vector<SeenFrame>& frames) {
     return times;
 }
 
+// What a file of annotations says of all pictures: how large they are, and how its points are called.
+void take_annotated(KeypointData& data, const Json& json) {
+    constexpr double kLargest = 65536;  // [px]
+    if (!find_annotations(json)) return;
+    const Json& images = json["images"];
+    const auto side = [&](const char* name) {
+        const bool is_there = images.is_array() && !images.empty() && images[0].is_object() &&
+                              images[0].contains(name) && images[0][name].is_number();
+        return is_there ? std::clamp(images[0][name].get<double>(), 0.0, kLargest) : 0;
+    };
+    if (side("width") >= 1 && side("height") >= 1) data.size = Vec2(side("width"), side("height"));
+    const Json* categories = find_people_list(json, "categories");
+    if (!categories || categories->empty()) return;
+    const Json* names = find_people_list(categories->front(), "keypoints");
+    if (!names || names->size() != data.points) return;
+    if (std::all_of(names->begin(), names->end(), [](const Json& name) { return name.is_string(); }))
+        data.names = names->get<std::vector<std::string>>();
+}
+
 void take_person(KeypointData& data, const SeenPerson* person) {
     for (std::size_t k = 0; k < data.points; ++k) {
         const glm::dvec3 place = person ? person->places[k] : glm::dvec3(0);
@@ -236,7 +303,8 @@ bool holds_people(const Json& json) {
     const Json& list = people_list(json);
     if (!list.is_array()) return false;
     return std::any_of(list.begin(), list.end(), [](const Json& entry) {
-        return is_result_of_people(entry) || is_frame_of_people(entry);
+        return is_result_of_people(entry) || is_frame_of_people(entry) ||
+               (is_list_of_detections(entry) && !entry.empty());
     });
 }
 
@@ -254,6 +322,7 @@ KeypointData people_of_json(const Json& json, const std::string& where) {
     data.frames = frames.size();
     data.picture = !reader.in_space();
     data.known_order = true;
+    take_annotated(data, json);
     PersonTracker tracker;
     for (const SeenFrame& frame : frames) {
         std::vector<std::vector<PersonPoint>> people;
@@ -263,11 +332,7 @@ KeypointData people_of_json(const Json& json, const std::string& where) {
     }
     even_out_times(data, times_of(frames), [&](size_t t) { return format("{}: frame {}: ", where, t); });
     data.notes.push_back(format("people of a detector: {} points, {} frames", data.points, data.frames));
-    if (tracker.crowded() > 0) {
-        data.notes.push_back(
-            format("several people in {} frames; followed one by place, {} choices were close",
-                   tracker.crowded(), tracker.doubtful()));
-    }
+    for (std::string& note : tracker.notes()) data.notes.push_back(std::move(note));
     return data;
 }
 

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/text.h"
+
 namespace chironomia {
 namespace {
 
@@ -17,6 +19,8 @@ constexpr std::size_t kLongestUnseen = 15;  // [frames]
 // frames.
 constexpr double kNear = 0.2;  // of the diagonal of a person
 constexpr std::size_t kFramesApart = 5;
+constexpr double kSame = 0.07;  // ours, of the diagonal: 13 cm of a grown-up; who crosses moves on from there
+constexpr double kLeap = 0.5;   // ours, of the diagonal, from one frame to the next: nobody is that fast
 constexpr std::size_t kMostTracks = 32;                      // a crowd behind them is not followed
 constexpr double kFar = std::numeric_limits<double>::max();  // points have nothing in common
 
@@ -45,6 +49,17 @@ float size_of(const Points& person) {
     return low.x <= high.x ? glm::distance(low, high) : 0;
 }
 
+// The mean way between the points that both show, where one of them moves by `moved` before.
+double mean_distance(const Points& a, const Vec2& moved, const Points& b) {
+    double sum = 0, shared = 0;
+    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
+        if (a[k].confidence == 0 || b[k].confidence == 0) continue;
+        sum += static_cast<double>(glm::distance(a[k].place + moved, b[k].place));
+        ++shared;
+    }
+    return shared > 0 ? sum / shared : kFar;
+}
+
 double confidence_of(const Points& person) {
     return std::accumulate(person.begin(), person.end(), 0.0, [](double sum, const PersonPoint& point) {
         return sum + static_cast<double>(point.confidence);
@@ -53,16 +68,8 @@ double confidence_of(const Points& person) {
 
 }  // namespace
 
-// The mean over the points that both show.
 double PersonTracker::Track::distance_to(const Points& person) const {
-    const Vec2 moved = velocity * static_cast<float>(std::min(unseen + 1, kLongestUnseen));
-    double sum = 0, shared = 0;
-    for (std::size_t k = 0; k < std::min(last.size(), person.size()); ++k) {
-        if (last[k].confidence == 0 || person[k].confidence == 0) continue;
-        sum += static_cast<double>(glm::distance(last[k].place + moved, person[k].place));
-        ++shared;
-    }
-    return shared > 0 ? sum / shared : kFar;
+    return mean_distance(last, velocity * static_cast<float>(std::min(unseen + 1, kLongestUnseen)), person);
 }
 
 void PersonTracker::Track::go_on(const Points* person) {
@@ -105,6 +112,50 @@ std::vector<std::optional<std::size_t>> PersonTracker::assign(const std::vector<
     return body_of;
 }
 
+// The followed person's body, unless a surer one at the same place is of nobody else.
+void PersonTracker::take_surest_of_same(const std::vector<Points>& bodies,
+                                        std::vector<std::optional<std::size_t>>& body_of) const {
+    if (!body_of.front()) return;
+    const std::size_t ours = *body_of.front();
+    std::size_t surest = ours;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const auto track = std::ranges::find(body_of, std::optional(b)) - body_of.begin();
+        const bool is_other = track > 0 && static_cast<std::size_t>(track) < tracks_.size() &&
+                              tracks_[static_cast<std::size_t>(track)].apart >= kFramesApart;
+        const double near = kSame * static_cast<double>(std::max(size_of(bodies[ours]), size_of(bodies[b])));
+        if (!is_other && mean_distance(bodies[ours], Vec2(0), bodies[b]) < near &&
+            confidence_of(bodies[b]) > confidence_of(bodies[surest]))
+            surest = b;
+    }
+    std::ranges::replace(body_of, std::optional(surest), std::optional(ours));
+    body_of.front() = surest;
+}
+
+bool PersonTracker::leaps_to(const Points* body) const {
+    const Track& ours = tracks_.front();
+    const double distance = body ? ours.distance_to(*body) : kFar;
+    const auto since = static_cast<double>(ours.unseen + 1);
+    return distance != kFar && distance > since * kLeap * static_cast<double>(size_of(ours.last));
+}
+
+std::vector<std::string> PersonTracker::notes() const {
+    std::vector<std::string> notes;
+    if (crowded_ > 0) {
+        notes.push_back(format("several people in {} frames; followed one by place, {} choices were close",
+                               crowded_, doubtful_));
+    }
+    if (!leaps_.empty()) {
+        constexpr std::size_t kShown = 5;
+        std::vector<std::string> shown;
+        for (std::size_t i = 0; i < std::min(leaps_.size(), kShown); ++i)
+            shown.push_back(format("{}", leaps_[i]));
+        notes.push_back(format(
+            "the person is suddenly elsewhere in {} frames ({}{}), as where a film is cut or somebody else is seen",
+            leaps_.size(), join(shown), leaps_.size() > kShown ? ", ..." : ""));
+    }
+    return notes;
+}
+
 void PersonTracker::follow_others(const std::vector<Points>& bodies, const std::vector<bool>& taken) {
     for (std::size_t b = 0; b < bodies.size(); ++b)
         if (!taken[b] && size_of(bodies[b]) > 0 && tracks_.size() < kMostTracks)
@@ -129,12 +180,18 @@ std::optional<std::size_t> PersonTracker::choose(const std::vector<std::vector<P
     std::vector<bool> taken(bodies.size());
     std::optional<std::size_t> chosen;
     if (!tracks_.empty()) {
-        const auto body_of = assign(bodies);
+        auto body_of = assign(bodies);
+        take_surest_of_same(bodies, body_of);
+        const bool leaps = leaps_to(body_of.front() ? &bodies[*body_of.front()] : nullptr);
         for (std::size_t i = 0; i < tracks_.size(); ++i) {
             tracks_[i].go_on(body_of[i] ? &bodies[*body_of[i]] : nullptr);
             if (body_of[i]) taken[*body_of[i]] = true;
         }
         chosen = body_of.front();
+        if (leaps) {
+            leaps_.push_back(frames_);
+            tracks_.front().velocity = Vec2(0);  // that of nobody
+        }
     } else if (!bodies.empty()) {
         const auto surest = std::max_element(
             bodies.begin(), bodies.end(),
@@ -144,6 +201,7 @@ std::optional<std::size_t> PersonTracker::choose(const std::vector<std::vector<P
         taken[*chosen] = true;
     }
     if (!tracks_.empty()) follow_others(bodies, taken);
+    ++frames_;
     return chosen;
 }
 

@@ -293,8 +293,7 @@ std::optional<NumpyArray> body_with_face(const std::vector<NumpyArray>& arrays) 
 }
 
 void take_confidence(KeypointData& data, const std::vector<NumpyArray>& arrays) {
-    const NumpyArray* array =
-        find_array(arrays, {"confidence", "confidences", "conf", "scores", "score", "visibility"});
+    const NumpyArray* array = find_array(arrays, kConfidenceNames);
     if (!array || !data.confidence.empty()) return;
     if (array->numbers.size() != data.frames * data.points) {
         throw Error(format("{}: {} does not fit {} frames of {} points", data.where, describe(*array),

@@ -30,10 +30,7 @@ int axis_called(const std::string& word) {
     if (word == "x") return 0;
     if (word == "y") return 1;
     if (word == "z") return 2;
-    for (const char* sureness : {"c", "conf", "confidence", "score", "visibility", "v", "likelihood"}) {
-        if (word == sureness) return 3;
-    }
-    return -1;
+    return std::ranges::find(kConfidenceNames, word) != kConfidenceNames.end() ? 3 : -1;
 }
 
 // "x1", "y_1": a point that has a number alone.
@@ -98,10 +95,16 @@ std::vector<PointColumns> find_points(const CsvTable& table) {
         const auto [entry, added] = index.emplace(name->point, points.size());
         if (added) points.push_back({name->point});
         int& column = points[entry->second].columns[static_cast<size_t>(name->axis)];
+        if (column >= 0 && name->axis == 3) continue;
         if (column >= 0)
             throw Error(format("{}: the column \"{}\" comes twice", table.where, table.columns[i]));
         column = static_cast<int>(i);
     }
+    // Only how sure something is: the score of a person, the number of a page.
+    std::erase_if(points, [](const PointColumns& point) {
+        return std::all_of(point.columns.begin(), point.columns.end() - 1,
+                           [](int column) { return column < 0; });
+    });
     const size_t axes = is_picture(points) ? 2 : 3;
     for (const PointColumns& point : points) {
         for (size_t axis = 0; axis < axes; ++axis) {
@@ -261,7 +264,7 @@ std::optional<LongColumns> find_long_columns(const CsvTable& table) {
     const auto name = find_column(table, kNameNames);
     const auto x = find_column(table, {"x"}), y = find_column(table, {"y"}), z = find_column(table, {"z"});
     if (!frame || !name || !x || !y) return std::nullopt;
-    const auto sure = find_column(table, {"confidence", "conf", "c", "score", "visibility"});
+    const auto sure = find_column(table, kConfidenceNames);
     return LongColumns{*frame,
                        *name,
                        {static_cast<int>(*x), static_cast<int>(*y), z ? static_cast<int>(*z) : -1,

@@ -207,6 +207,28 @@ void miss_zeros(KeypointTrack& track, size_t frames, std::vector<std::string>& n
     if (missing > 0) notes.push_back(format("points at exactly 0 0 0: {}, which are missing there", missing));
 }
 
+// Detectors write the corner of the picture, or -1 -1, for a point that they did not find. Where many points lie left of
+// the picture or above it, the origin is another place.
+void miss_corners(KeypointData& data) {
+    const auto is_corner = [&](size_t i) {
+        const double x = data.places[3 * i], y = data.places[3 * i + 1];
+        return (x == 0 && y == 0) || (x == -1 && y == -1);
+    };
+    const size_t count = data.frames * data.points;
+    size_t corners = 0, others = 0, outside = 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (!data.confidence.empty() && data.confidence[i] == 0) continue;
+        corners += is_corner(i);
+        others += !is_corner(i);
+        outside += !is_corner(i) && (data.places[3 * i] < 0 || data.places[3 * i + 1] < 0);
+    }
+    if (corners == 0 || static_cast<double>(outside) > kMostOutside * static_cast<double>(others)) return;
+    data.confidence.resize(count, 1);
+    for (size_t i = 0; i < count; ++i)
+        if (is_corner(i)) data.confidence[i] = 0;
+    data.notes.push_back(format("points at exactly 0 0 or -1 -1: {}, which are missing there", corners));
+}
+
 std::vector<std::string> naming_notes(const KeypointData& data, const PointNaming& naming,
                                       const KeypointTrack& track) {
     std::vector<std::string> notes;
@@ -260,8 +282,9 @@ Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::f
                   .keypoints = {},
                   .notes = {},
                   .first_time = data.first_number > 0 ? data.first_number / rate : data.first_time};
+    if (data.picture && !data.known_order) miss_corners(data);
     KeypointTrack track = track_of(data, naming);
-    if (!data.picture && !naming.zero_is_missing) miss_zeros(track, data.frames, data.notes);
+    if (!naming.zero_is_missing) miss_zeros(track, data.frames, data.notes);
     motion.notes = data.notes;
     for (std::string& note : naming_notes(data, naming, track)) motion.notes.push_back(std::move(note));
     if (data.picture)

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/body/motion.h"
@@ -15,6 +17,27 @@ namespace chironomia {
 inline constexpr double kQuaternionTolerance = 0.01;
 
 inline constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
+
+// How files call how sure a point is, in lower case. Where a point has several, the first of the file counts.
+inline const std::initializer_list<std::string_view> kConfidenceNames = {"confidence",
+                                                                         "confidences",
+                                                                         "conf",
+                                                                         "c",
+                                                                         "score",
+                                                                         "scores",
+                                                                         "visibility",
+                                                                         "vis",
+                                                                         "visible",
+                                                                         "v",
+                                                                         "likelihood",
+                                                                         "prob",
+                                                                         "probability",
+                                                                         "p",
+                                                                         "presence",
+                                                                         "keypoint_scores",
+                                                                         "keypoints_scores",
+                                                                         "keypoints_score",
+                                                                         "keypoint_score"};
 
 struct KeypointData {
     std::string where;                                // the file's name
@@ -39,8 +62,8 @@ struct KeypointData {
 // Names the points as in skinning/body/keypoint_layout.h: by the name map, by the names of the file, or by the number
 // of points and by whether they make a body: its bones, and in a picture also where it has them (body_proportions.h).
 // Points that are not known are dropped, and a note says so. A point is missing where its confidence is 0 or no number,
-// or where its place is 0 0 0 in a format that means it so, or in some frames of space but not in those before and
-// after.
+// or where its place is 0 0 0 in a format that means it so, or in some frames but not in those before and after; in a
+// picture also at its corner, and at -1 -1.
 //   fps        instead of the rate in the file
 //   name_map   JSON {"their name": "our name"}, null or "-" to drop a point; files without names count from "0"
 // Where the third number of a point has no name it is a confidence, and the points are those of a picture, if it lies

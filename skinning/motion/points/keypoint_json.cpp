@@ -11,9 +11,9 @@
 namespace chironomia {
 namespace {
 
-const Json* find_key(const Json& object, std::initializer_list<const char*> keys) {
+const Json* find_key(const Json& object, std::initializer_list<std::string_view> keys) {
     if (!object.is_object()) return nullptr;
-    for (const char* key : keys) {
+    for (const std::string_view key : keys) {
         if (const auto found = object.find(key); found != object.end()) return &*found;
     }
     return nullptr;
@@ -150,8 +150,7 @@ class FrameReader {
         note_depth(z != nullptr, name);
         all_unnamed_ = false;
         result.place = glm::dvec3(number(*x, name), number(*y, name), z ? number(*z, name) : 0);
-        if (const Json* c = find_key(point, {"confidence", "visibility", "score", "c"}))
-            result.confidence = number(*c, name);
+        if (const Json* c = find_key(point, kConfidenceNames)) result.confidence = number(*c, name);
         return result;
     }
 
@@ -181,7 +180,7 @@ std::optional<double> time_in(const Json& frame) {
 }
 
 void take_frame_times(KeypointData& data, const Json& frames) {
-    const auto numbers_of = [&](std::initializer_list<const char*> keys) {
+    const auto numbers_of = [&](std::initializer_list<std::string_view> keys) {
         std::vector<double> numbers;
         for (const Json& frame : frames) {
             const Json* number = find_key(frame, keys);

@@ -17,5 +17,13 @@ TEST(ParseJsonLines, ReadsAnObjectALine) {
               "a.jsonl:3:6: this is no valid JSON; check the quotes, commas and brackets around this place");
 }
 
+// As json.dump of Python writes it.
+TEST(ParseJson, TakesNanForNull) {
+    EXPECT_EQ(parse_json(R"({"a": [NaN, 1], "NaN \" NaN": "\\", "b": NaN})", "a.json").dump(),
+              R"({"a":[null,1],"NaN \" NaN":"\\","b":null})");
+    EXPECT_EQ(testing::refusal_of([] { parse_json("[NaN, Infinity]", "a.json"); }),
+              "a.json:1:8: this is no valid JSON; check the quotes, commas and brackets around this place");
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -1115,6 +1115,54 @@ TEST_F(KeypointText, ReadsLongTables) {
     EXPECT_EQ(confidence(motion, 1, Landmark::left_shoulder), 0);
 }
 
+// As detectors and their users call it.
+TEST_F(KeypointText, KnowsHowSureAPointIsByManyNames) {
+    for (const char* name : {"confidence", "likelihood", "v", "p", "prob", "presence", "vis"}) {
+        std::string table = kLong;
+        table.replace(table.find("confidence"), 10, name);
+        EXPECT_EQ(confidence(read("a.csv", table, {.fps = 30}), 0, Landmark::right_shoulder), 0.5f) << name;
+        table = kWideHeader + kWideRows;
+        const std::string old = "hips:confidence";
+        ASSERT_NE(table.find(old), table.npos);
+        table.replace(table.find(old), old.size(), format("hips:{}", name));
+        EXPECT_EQ(confidence(read("b.csv", table), 1, Landmark::pelvis), 0.5f) << name;
+    }
+    const Motion both =
+        read("c.csv",
+             "nose_x,nose_y,nose_visibility,nose_presence,neck_x,neck_y,neck_visibility,neck_presence,"
+             "left_wrist_x,left_wrist_y,left_wrist_visibility,left_wrist_presence\n"
+             "100,100,0.5,0.9,100,150,0.5,0.9,130,200,0.25,1\n",
+             {.fps = 30});
+    EXPECT_EQ(both.picture->confidence, (std::vector<float>{0.5f, 0.5f, 0.25f}));
+    const Motion beside = read("d.csv",
+                               "p_id,nose_x,nose_y,neck_x,neck_y,left_wrist_x,left_wrist_y,body_score\n"
+                               "7,100,100,100,150,130,200,0.5\n",
+                               {.fps = 30});
+    EXPECT_EQ(beside.picture->names.size(), 3u) << "numbers and scores of a person are no points";
+}
+
+// A detector that did not find a point writes the corner of the picture, or -1 -1. Around a root the origin is a place.
+TEST_F(KeypointText, MissesPointsInTheCornerOfAPicture) {
+    const auto frames = [](const std::string& wrist, int x, int y) {
+        std::string list;
+        for (const std::string& each : {format("[{}, {}]", x + 90, y + 200), wrist, wrist, wrist})
+            list += format("{}[[{}, {}], [{}, {}], [{}, {}], {}]", list.empty() ? "" : ", ", x, y, x + 50,
+                           y + 80, x - 50, y + 80, each);
+        return format(R"({{"fps": 25, "names": ["nose", "left_shoulder", "right_shoulder", "left_wrist"],
+            "frames": [{}]}})",
+                      list);
+    };
+    for (const char* corner : {"[0, 0]", "[-1, -1]"}) {
+        const Motion motion = read("a.json", frames(corner, 300, 100));
+        EXPECT_EQ(motion.picture->confidence[3], 1);
+        EXPECT_EQ(motion.picture->confidence[7], 0) << corner;
+        EXPECT_THAT(motion.notes, Contains("points at exactly 0 0 or -1 -1: 3, which are missing there"));
+    }
+    const Motion around = read("b.json", frames("[-1, -1]", 0, -80));
+    EXPECT_EQ(around.picture->confidence[0], 1);
+    EXPECT_EQ(around.picture->confidence[7], 1);
+}
+
 TEST_F(KeypointText, RefusesTablesThatDoNotFit) {
     EXPECT_THAT(refusal("a.csv", "a,b,c\n1,2,3\n"), HasSubstr("no columns NAME_x, NAME_y, NAME_z"));
     EXPECT_THAT(refusal("a.csv", kWideHeader), HasSubstr("no rows follow the header"));

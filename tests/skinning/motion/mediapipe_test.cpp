@@ -74,6 +74,32 @@ TEST(ReadMediaPipe, ReadsTheTasksOfJavaScript) {
     EXPECT_FALSE(holds_mediapipe(file({{"landmarks", landmarks(33)}})));
 }
 
+// Whoever stands to the right is listed first in every second frame.
+TEST(ReadMediaPipe, FollowsOneOfSeveralPeople) {
+    Json frames = Json::array();
+    for (int t = 0; t < 6; ++t) {
+        Json left = landmarks(33), right = landmarks(33, 0.5);
+        for (Json& point : right) point["x"] = point["x"].get<double>() + 0.4;
+        for (Json* person : {&left, &right})
+            for (Json& point : *person) point["x"] = point["x"].get<double>() + t / 1000.0;
+        const Json people = t % 2 == 0 ? Json{left, right} : Json{right, left};
+        frames.push_back({{"pose_landmarks", people}, {"pose_world_landmarks", people}});
+    }
+    Json json = {{"fps", 25}, {"width", 1000}, {"height", 500}, {"frames", frames}};
+    const Motion motion = read(json);
+    for (size_t t = 0; t < 6; ++t) {
+        EXPECT_NEAR(place(*motion.picture, "left_wrist", t).x, 150 + t, 1e-2) << t;
+        EXPECT_NEAR(place(*motion.keypoints, "left_wrist", t).x, 0.15 + 0.001 * double(t), 1e-5) << t;
+    }
+    for (const Json& odd : {Json(5), Json(), Json{{"landmark", landmarks(33)}}, Json{1e300, "a", nullptr}}) {
+        Json damaged = json;
+        damaged["frames"][3]["pose_landmarks"].push_back(odd);
+        EXPECT_NEAR(place(*read(damaged).picture, "left_wrist", 3).x, 153, 1e-2) << odd;
+    }
+    for (Json& frame : json["frames"]) frame.erase("pose_landmarks");
+    EXPECT_THAT(read(json).notes, Contains("several people in 6 frames; the first of each is taken"));
+}
+
 TEST(ReadMediaPipe, LaysFramesOutByTheirTimesInSpaceAndPicture) {
     Json frames = Json::array();
     for (const int time : {0, 70, 100, 150}) {
@@ -117,7 +143,7 @@ TEST(ReadMediaPipe, KeepsSpaceAndPictureOfOneFile) {
     const Motion motion = read(json, 50);
     EXPECT_EQ(motion.fps, 50);
     EXPECT_TRUE(motion.keypoints && motion.picture);
-    EXPECT_THAT(motion.notes, Contains("several people in 1 frames; the first of each is taken"));
+    EXPECT_THAT(motion.notes, Contains(HasSubstr("several people in 1 frames; followed one by place")));
     Json unsized = json;
     unsized.erase("width");
     const Motion space = read(unsized);

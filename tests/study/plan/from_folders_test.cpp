@@ -208,6 +208,20 @@ TEST_F(PlanFromFolders, TakesTheSamplesOfAStochasticSystemInTurn) {
                                      "2_scott_0_1_1_sample_10.npz"));
 }
 
+TEST_F(PlanFromFolders, TakesFoldersOfOpenPoseForMotions) {
+    fs::remove_all(folder_ / "base");
+    fs::create_directory(folder_ / "base");
+    for (const char* name : {"1_wayne_0_1_1", "2_scott_0_1_1"})
+        fs::copy(testing::test_file("tests/fixtures/gestures/openpose_24fps"),
+                 folder_ / format("base/{}", name), fs::copy_options::recursive);
+    write_table("1_wayne_0_1_1.wav,0,0.5,0.5\n2_scott_0_1_1.wav,0,0.5,0.5\n");
+    const Outcome made = plan({"--motion-fps", "24", "--out", in("plan.json")});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    const Json plan = read_json(folder_ / "plan.json");
+    EXPECT_EQ(plan["clips"][0]["motion"]["baseline"], "base/1_wayne_0_1_1");
+    EXPECT_EQ(plan["hints"]["baseline"]["fps"], 24);
+}
+
 // As the cache of Hugging Face and git-annex keep files.
 TEST_F(PlanFromFolders, NamesLinksAndNotTheFilesWithoutNamesThatTheyLeadTo) {
     for (const char* file : {"ours/1_wayne_0_1_1.npz", "wav/1_wayne_0_1_1.wav"}) {

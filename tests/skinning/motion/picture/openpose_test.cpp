@@ -54,6 +54,16 @@ TEST(ReadOpenPose, TakesThePointsOfOnePerson) {
     EXPECT_EQ(motion.companions.size(), 2u);
 }
 
+// "._clip_000000000007_keypoints.json", of macOS on a disk of another system.
+TEST(ReadOpenPose, PassesOverFilesOfTheFileSystem) {
+    const TemporaryFolder folder;
+    write_frame(folder.path(), 7, {person(100)});
+    write_text(folder / "._clip_000000000007_keypoints.json", "of macOS");
+    EXPECT_EQ(read_openpose(folder.path(), 25).companions.size(), 1u);
+    fs::remove(folder / "clip_000000000007_keypoints.json");
+    EXPECT_FALSE(is_openpose_folder(folder.path()));
+}
+
 TEST(ReadOpenPose, FollowsThePersonItBeganWith) {
     const TemporaryFolder folder;
     write_frame(folder.path(), 0, {person(100, 0.5), person(300, 0.9)});

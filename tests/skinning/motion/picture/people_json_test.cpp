@@ -141,6 +141,59 @@ TEST_F(PeopleJson, FollowsOneOfSeveralPeople) {
     EXPECT_THAT(motion.notes, Contains(HasSubstr("several people in 2 frames; followed one by place")));
 }
 
+// As Python writes a point that was not found.
+TEST_F(PeopleJson, MissesPlacesOfNan) {
+    std::string text = result("0", 100);
+    text.replace(text.find("100, 0, 0.8"), 11, "NaN, NaN, NaN");
+    const Motion motion = read("[" + text + "]");
+    EXPECT_EQ(motion.picture->confidence[0], 0);
+    EXPECT_FLOAT_EQ(motion.picture->confidence[1], 0.8f);
+}
+
+// Ultralytics: a list of people for each picture.
+TEST_F(PeopleJson, ReadsResultsOfUltralytics) {
+    const auto detection = [](double x, const std::string& sure) {
+        std::string xs, ys, visible;
+        for (int k = 0; k < 17; ++k) {
+            xs += format("{}{}", k > 0 ? ", " : "", x + k);
+            ys += format("{}{}", k > 0 ? ", " : "", 10 * k);
+            visible += (k > 0 ? ", " : "") + sure;
+        }
+        return format(
+            R"({{"name": "person", "box": {{}}, "keypoints": {{"x": [{}], "y": [{}], "visible": [{}]}}}})",
+            xs, ys, visible);
+    };
+    const Motion motion = read("[[" + detection(100, "0.7") + "], [], [" + detection(500, "0.9") + ", " +
+                               detection(104, "0.6") + "]]");
+    ASSERT_EQ(motion.frames, 3u);
+    EXPECT_EQ(nose(motion, 0), Vec2(100, 0));
+    EXPECT_EQ(motion.picture->confidence[17], 0);
+    EXPECT_EQ(nose(motion, 2), Vec2(104, 0));
+    EXPECT_FLOAT_EQ(motion.picture->confidence[2 * 17], 0.6f);
+    EXPECT_THAT(
+        refusal(R"([[{"keypoints": {"x": [1, 2], "y": [1]}}]])"),
+        HasSubstr("frame 0: its \"keypoints\" are {\"x\":[1,2],\"y\":[1]}; as many x as y are expected"));
+}
+
+// What people marked by hand: pictures, and what is in them. A box alone has no points.
+TEST_F(PeopleJson, ReadsAnnotationsOfCoco) {
+    std::string names;
+    for (const char* name : {"nose", "left_eye", "right_eye", "left_ear", "right_ear", "left_shoulder",
+                             "right_shoulder", "left_elbow", "right_elbow", "left_wrist", "right_wrist",
+                             "left_hip", "right_hip", "left_knee", "right_knee", "left_ankle", "right_ankle"})
+        names += format("{}\"{}\"", names.empty() ? "" : ", ", name);
+    const Motion motion = read(format(
+        R"({{"images": [{{"id": 1, "width": 1366, "height": 768}}, {{"id": 2}}, {{"id": 3}}], "annotations": [{}, {}, {}],
+            "categories": [{{"id": 1, "name": "person", "keypoints": [{}]}}]}})",
+        result("1", 100, 17, 2), R"({"image_id": 2, "category_id": 1, "bbox": [1, 2, 3, 4]})",
+        result("3", 104, 17, 1), names));
+    ASSERT_EQ(motion.frames, 3u);
+    EXPECT_EQ(motion.picture->size, Vec2(1366, 768));
+    EXPECT_EQ(nose(motion, 2), Vec2(104, 0));
+    EXPECT_EQ(motion.picture->confidence[0], 1);
+    EXPECT_EQ(motion.picture->confidence[17], 0);
+}
+
 TEST_F(PeopleJson, KnowsWholeBodies) {
     const Motion whole = read("[" + result("0", 100, 133) + "]");
     EXPECT_THAT(whole.notes, Contains("picture: COCO-WholeBody 133, by the number of points"));

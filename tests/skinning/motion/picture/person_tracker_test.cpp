@@ -1,5 +1,6 @@
 #include "skinning/motion/picture/person_tracker.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -62,6 +63,27 @@ TEST(PersonTracker, StaysWithAPersonWhoIsFoundTwice) {
         if (t % 10 < 5) found.push_back(sure);
         EXPECT_NE(tracker.choose(found, 2), std::nullopt) << t;
     }
+}
+
+// A detector finds one person twice, the second time without an arm, and that one a little nearer to where the person
+// was.
+TEST(PersonTracker, TakesTheSurerOfTwoAtOnePlace) {
+    PersonTracker tracker;
+    for (int t = 0; t < 20; ++t) {
+        auto whole = person(100, 0.8f), part = person(98, 0.4f);
+        if (t > 3) whole[0].place.x += 4;
+        EXPECT_EQ(tracker.choose({part, whole}, 2), 1u) << t;
+    }
+    EXPECT_EQ(tracker.notes().size(), 1u);
+}
+
+TEST(PersonTracker, SaysWhereThePersonIsSuddenlyElsewhere) {
+    PersonTracker tracker;
+    for (int t = 0; t < 30; ++t) tracker.choose({person(t < 10 || t >= 20 ? 100 : 500, 0.9f)}, 2);
+    EXPECT_THAT(tracker.notes(),
+                ::testing::ElementsAre(
+                    "the person is suddenly elsewhere in 2 frames (10, 20), as where a film is cut "
+                    "or somebody else is seen"));
 }
 
 // The camera goes over to somebody else: a new person is taken, because nobody else may be the one.
