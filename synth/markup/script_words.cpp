@@ -13,15 +13,26 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\f\v";
 
-// What parts words wherever it stands, and what is cut from their ends alone.
-constexpr std::array<std::string_view, 39> kBreaks = {
-    " ",      "\t",     "\r",     "\n",     "\f",     "\v",     "\u00a0", "\u2028", "\u2029", "\u2014",
-    "\u2013", "\u2026", "\"",     "(",      ")",      "[",      "]",      "{",      "}",      "/",
-    "\u00ab", "\u00bb", "\u201c", "\u201d", "\u201e", "<",      ">",      "\u3002", "\u0964", "\u06d4",
+// White space of Unicode besides ASCII's, and the space without width.
+constexpr std::array<std::string_view, 19> kSpaces = {
+    "\u0085", "\u00a0", "\u2000", "\u2001", "\u2002", "\u2003", "\u2004", "\u2005", "\u2006", "\u2007",
+    "\u2008", "\u2009", "\u200a", "\u2028", "\u2029", "\u202f", "\u205f", "\u3000", "\u200b"};
+constexpr std::array<std::string_view, 2> kHyphens = {"\u2010", "\u2011"};
+
+// Soft hyphens, byte order marks, word joiners, and what sets the direction of writing.
+constexpr std::array<std::string_view, 15> kInvisible = {"\u00ad", "\ufeff", "\u2060", "\u200e", "\u200f",
+                                                         "\u061c", "\u202a", "\u202b", "\u202c", "\u202d",
+                                                         "\u202e", "\u2066", "\u2067", "\u2068", "\u2069"};
+
+// What parts words wherever it stands besides spaces, and what is cut from their ends besides what is invisible.
+constexpr std::array<std::string_view, 36> kBreaks = {
+    " ",      "\t",     "\r",     "\n",     "\f",     "\v",     "\u2014", "\u2013", "\u2026",
+    "\"",     "(",      ")",      "[",      "]",      "{",      "}",      "/",      "\u00ab",
+    "\u00bb", "\u201c", "\u201d", "\u201e", "<",      ">",      "\u3002", "\u0964", "\u06d4",
     "\uff1f", "\u061f", "\uff01", "\uff1b", "\uff1a", "\u061b", "\uff0c", "\u3001", "\u060c"};
-constexpr std::array<std::string_view, 25> kTrimmed = {
-    ".", ",", ";", ":", "!",  "?",      "'",      "`",      "-",      "*",      "_",      "~",     "|",
-    "^", "#", "=", "+", "\\", "\u2018", "\u2019", "\u201a", "\u2039", "\u203a", "\u00bf", "\u00a1"};
+constexpr std::array<std::string_view, 27> kTrimmed = {
+    ".", ",", ";", ":", "!", "?",  "'",      "`",      "-",      "\u2010", "\u2011", "*",      "_",     "~",
+    "|", "^", "#", "=", "+", "\\", "\u2018", "\u2019", "\u201a", "\u2039", "\u203a", "\u00bf", "\u00a1"};
 
 template <std::size_t N>
 std::size_t starts_with_any(std::string_view text, const std::array<std::string_view, N>& candidates) {
@@ -40,14 +51,21 @@ std::size_t ends_with_any(std::string_view text, const std::array<std::string_vi
 // How many bytes at the beginning of `text` part words there. Two full stops in a row are an ellipsis.
 std::size_t break_length(std::string_view text) {
     if (text.starts_with("..")) return std::min(text.find_first_not_of('.'), text.size());
-    return starts_with_any(text, kBreaks);
+    const std::size_t space = starts_with_any(text, kSpaces);
+    return space > 0 ? space : starts_with_any(text, kBreaks);
 }
 
 void add_word(std::string_view script, std::size_t begin, std::size_t end, std::vector<ScriptWord>& words) {
     const auto piece = [&] { return script.substr(begin, end - begin); };
-    while (const std::size_t cut = starts_with_any(piece(), kTrimmed)) begin += cut;
-    while (const std::size_t cut = ends_with_any(piece(), kTrimmed)) end -= cut;
-    if (begin < end) words.push_back({std::string(piece()), begin, end});
+    const auto cut_at_start = [&] {
+        return std::max(starts_with_any(piece(), kTrimmed), starts_with_any(piece(), kInvisible));
+    };
+    const auto cut_at_end = [&] {
+        return std::max(ends_with_any(piece(), kTrimmed), ends_with_any(piece(), kInvisible));
+    };
+    while (const std::size_t cut = cut_at_start()) begin += cut;
+    while (const std::size_t cut = cut_at_end()) end -= cut;
+    if (begin < end) words.push_back({with_plain_signs(piece()), begin, end});
 }
 
 constexpr std::string_view kJoiner = "\u200d";
@@ -117,7 +135,24 @@ bool starts_with_break(std::string_view script) {
 }
 
 bool ends_with_break(std::string_view script) {
-    return ends_with_any(script, kBreaks) > 0;
+    return ends_with_any(script, kSpaces) > 0 || ends_with_any(script, kBreaks) > 0;
+}
+
+std::string with_plain_signs(std::string_view text) {
+    std::string plain;
+    plain.reserve(text.size());
+    for (std::size_t at = 0; at < text.size();) {
+        const std::string_view rest = text.substr(at);
+        const std::size_t space = starts_with_any(rest, kSpaces), hyphen = starts_with_any(rest, kHyphens),
+                          invisible = starts_with_any(rest, kInvisible);
+        const std::size_t length = std::max({space, hyphen, invisible});
+        if (length == 0)
+            plain += text[at];
+        else if (invisible == 0)
+            plain += space > 0 ? ' ' : '-';
+        at += std::max<std::size_t>(1, length);
+    }
+    return plain;
 }
 
 std::string plain_letters(std::string_view word) {

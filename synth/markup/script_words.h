@@ -24,12 +24,16 @@ bool is_punctuated(std::string_view text);  // whether it holds any of all these
 
 // The words of `script`: what stands between white space, dashes, slashes, quotation marks, brackets, ellipses and
 // the signs of other scripts, without the punctuation at its ends; "don't", "well-known", "3.5" and "&" are words, "--"
-// is none.
+// is none. Their texts have plain signs, their bytes are those of `script`.
 std::vector<ScriptWord> find_words(std::string_view script);
 
 // Whether the first, or the last, character of `script` is one that parts words.
 bool starts_with_break(std::string_view script);
 bool ends_with_break(std::string_view script);
+
+// The same text with Unicode's spaces as " ", its hyphens as "-", and without what is not seen: soft hyphens, marks of
+// the order of bytes, and what sets the direction of writing.
+std::string with_plain_signs(std::string_view text);
 
 // Letters as in a word list: lower case (Latin letters with accents too), apostrophes straight.
 std::string plain_letters(std::string_view word);

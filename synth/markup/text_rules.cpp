@@ -158,7 +158,7 @@ Pause Marker::find_pause(std::size_t word) const {
     const std::size_t from = text_.words[word].end;
     const std::size_t to = is_last ? text_.script.size() : text_.words[word + 1].begin;
     const std::string_view raw = std::string_view(text_.script).substr(from, to - from);
-    const std::string gap = text_.is_ssml ? without_tags(raw) : std::string(raw);
+    const std::string gap = with_plain_signs(text_.is_ssml ? without_tags(raw) : std::string(raw));
 
     Pause pause{.depth = text_.is_ssml ? depth_of_tags(raw) : Depth::none};
     pause.asks = holds_any(gap, kQuestions);

@@ -19,7 +19,7 @@ bool is_punctuation(char32_t letter) {
     return is_latin_sign || (letter >= 0x2000 && letter < 0x2070) || (letter >= 0x3000 && letter < 0x3004) ||
            (letter >= 0x3008 && letter < 0x3012) || (letter >= 0xff01 && letter < 0xff10) ||
            (letter >= 0xff1a && letter < 0xff21) || letter == 0xfeff || letter == 0x60c || letter == 0x61b ||
-           letter == 0x61f || letter == 0x6d4 || letter == 0x964;
+           letter == 0x61c || letter == 0x61f || letter == 0x6d4 || letter == 0x964;
 }
 
 char32_t lower(char32_t letter) {

@@ -33,6 +33,30 @@ TEST(FindWords, PartsThemAtTheSignsOfOtherScripts) {
     EXPECT_THAT(words_of("नमस्ते। आप"), ElementsAre("नमस्ते", "आप"));
 }
 
+TEST(FindWords, PartsThemAtEverySpaceOfUnicode) {
+    for (const char* space :
+         {"\u0085", "\u00a0", "\u2000", "\u2009", "\u200a", "\u200b", "\u202f", "\u205f", "\u3000"})
+        EXPECT_THAT(words_of("Oui" + std::string(space) + "! Non" + space + "merci"),
+                    ElementsAre("Oui", "Non", "merci"))
+            << space;
+}
+
+TEST(FindWords, ReadsHyphensAndLeavesOutWhatIsNotSeen) {
+    EXPECT_THAT(words_of("la\u0300\u2011bas co\u00adop\u2010ted"), ElementsAre("la\u0300-bas", "coop-ted"));
+    EXPECT_THAT(words_of("\ufeffHello\u200f, \u2067you\u2069 \u200e \u061c- \u2060"),
+                ElementsAre("Hello", "you"));
+    EXPECT_THAT(words_of("حالك؟\u200f \u202bنعم\u202c"), ElementsAre("حالك", "نعم"));
+    EXPECT_EQ(with_plain_signs("a\u202f\u2011\u00adb"), "a -b");
+}
+
+TEST(FindWords, GivesTheBytesOfTheScriptToWordsThatItRewrites) {
+    const std::vector<ScriptWord> words = find_words("\u200fso\u00adon\u200f là");
+    ASSERT_EQ(words.size(), 2u);
+    EXPECT_EQ(words[0].begin, 3u);
+    EXPECT_EQ(words[0].end, 9u);
+    EXPECT_EQ(words[1].begin, 13u);
+}
+
 TEST(FindWords, GivesTheirBytes) {
     const std::string script = " «Été» là.";
     const std::vector<ScriptWord> words = find_words(script);
