@@ -4,7 +4,7 @@
 
 #include "core/utf8.h"
 #include "study/measure/lexical.h"
-#include "synth/text/letters.h"
+#include "synth/markup/letters.h"
 
 namespace chironomia::study {
 

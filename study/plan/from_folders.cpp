@@ -17,7 +17,7 @@
 #include "skinning/motion/motion_file.h"
 #include "skinning/motion/picture/openpose.h"
 #include "study/plan/parts.h"
-#include "synth/text/letters.h"
+#include "synth/markup/letters.h"
 
 namespace chironomia::study {
 namespace fs = std::filesystem;

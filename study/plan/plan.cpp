@@ -9,7 +9,7 @@
 #include "study/plan/parts.h"
 #include "study/plan/presets.h"
 #include "study/plan/secret_names.h"
-#include "synth/text/letters.h"
+#include "synth/markup/letters.h"
 
 namespace chironomia::study {
 namespace fs = std::filesystem;

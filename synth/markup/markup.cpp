@@ -13,6 +13,7 @@
 #include "synth/markup/aplm.h"
 #include "synth/markup/bml.h"
 #include "synth/markup/functions.h"
+#include "synth/markup/letters.h"
 #include "synth/markup/markdown.h"
 #include "synth/markup/script_words.h"
 #include "synth/markup/ssml.h"
@@ -83,7 +84,7 @@ std::string utf8_of_latin_1(std::string_view text) {
     return to_utf8(characters);
 }
 
-// In UTF-8, without the mark that some editors put before it.
+// In UTF-8, without the mark that some editors put before it, and composed, as lists of words are.
 MarkupSource checked(const MarkupSource& source) {
     MarkupSource clean = source;
     if (declares_latin_1(clean.text) && fault_in_utf8(clean.text)) clean.text = utf8_of_latin_1(clean.text);
@@ -92,6 +93,7 @@ MarkupSource checked(const MarkupSource& source) {
         throw Error(format("{}: holds {} bytes, at most {} are read; part it", source.name, clean.text.size(),
                            kMostBytes));
     refuse_bad_text(clean.text, clean.name);
+    clean.text = composed(clean.text);
     return clean;
 }
 

@@ -10,6 +10,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "core/utf8.h"
+#include "synth/markup/letters.h"
 #include "synth/markup/script_words.h"
 #include "synth/speech/captions.h"
 #include "synth/speech/elan.h"
@@ -291,6 +292,7 @@ std::vector<SpokenWord> with_phonemes(std::vector<SpokenWord> words,
 
 TimedWords read_timed_words(const fs::path& file, double duration, std::string_view speaker) {
     TimedLabels labels = read_labels(file, duration, speaker);
+    for (TimedLabel& word : labels.words) word.text = composed(word.text);  // as texts are
     leave_events_out(labels, file.string());
     const WordFile place{.file = file.string(), .duration = duration};
     Times word_times(place, "words"), phone_times(place, "phonemes");

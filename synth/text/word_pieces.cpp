@@ -4,7 +4,7 @@
 #include "core/files/files.h"
 #include "core/text.h"
 #include "core/utf8.h"
-#include "synth/text/letters.h"
+#include "synth/markup/letters.h"
 #include "synth/text/stable_hash.h"
 
 namespace chironomia {

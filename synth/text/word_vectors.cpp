@@ -8,7 +8,7 @@
 #include "core/random.h"
 #include "core/utf8.h"
 #include "synth/corpus/records.h"
-#include "synth/text/letters.h"
+#include "synth/markup/letters.h"
 #include "synth/text/stable_hash.h"
 #include "synth/text/word_class.h"
 #include "synth/text/word_pieces.h"

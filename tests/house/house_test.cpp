@@ -143,7 +143,7 @@ const std::vector<Home> kHomes = {
     {"pugixml.hpp", "synth/markup/xml.cpp", false},
     {"Eigen/", "study/measure/vectors/", false},
     {"unsupported/Eigen/", "synth/features/fourier.cpp", false},
-    {"utf8proc.h", "synth/text/letters.cpp", false},
+    {"utf8proc.h", "synth/markup/letters.cpp", false},
     {"hdf5.h", "core/hdf5/writer.cpp", false},
     {"tiny_gltf.h", "skinning/gltf/", false},
     {"draco/", "skinning/gltf/gltf_draco.cpp", false},

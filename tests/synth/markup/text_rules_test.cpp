@@ -106,6 +106,16 @@ TEST(TextRules, PartSentencesAtTheSignsOfOtherScripts) {
     EXPECT_THAT(marks_in(marked("नमस्ते। आप", "hi"), MarkKind::performative).size(), 2u);
 }
 
+TEST(TextRules, SeeWordsAndSentencesThroughSpacesAndSignsThatAreNotSeen) {
+    EXPECT_THAT(
+        marks_in(marked("Regardez là\u2011bas\u202f! Bien\u00a0sûr\u202f?", "fr"), MarkKind::performative),
+        ElementsAre("performative=order(Regardez là-bas)", "performative=ask(Bien sûr)"));
+    EXPECT_THAT(marks_in(marked("e\u0301nor\u00adme", "fr"), MarkKind::world),
+                ElementsAre("world=size-big(énorme)"));
+    EXPECT_THAT(marks_in(marked("كيف حالك؟\u200f بخير", "ar"), MarkKind::performative),
+                ElementsAre("performative=ask(كيف حالك)", "performative=inform(بخير)"));
+}
+
 TEST(TextRules, PutTheNuclearAccentOnTheLastContentWordOfTheRheme) {
     const MarkedText text = marked("The old machine was given to us.");
     EXPECT_THAT(marks_in(text, MarkKind::pitch_accent),

@@ -1,4 +1,4 @@
-#include "synth/text/letters.h"
+#include "synth/markup/letters.h"
 
 #include <utf8proc.h>
 

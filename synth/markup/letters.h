@@ -10,7 +10,7 @@ namespace chironomia {
 std::u32string bare_letters(std::string_view text);
 
 // With letters and accents in one character where there is one (NFC), so that texts which look alike are alike: macOS
-// takes them apart in the names of files. What is no UTF-8 stays as it is.
+// takes them apart in the names of files, and so do texts that are written there. What is no UTF-8 stays as it is.
 std::string composed(std::string_view text);
 
 bool is_blank(char32_t character);        // white space
