@@ -74,6 +74,10 @@ bool is_punctuation(char32_t character) {
     return character > 32 && character < 127 && !is_letter_or_digit;
 }
 
+bool is_capital(char32_t character) {
+    return category_of(character) == UTF8PROC_CATEGORY_LU;
+}
+
 bool is_cjk(char32_t character) {
     return (character >= 0x4e00 && character <= 0x9fff) || (character >= 0x3400 && character <= 0x4dbf) ||
            (character >= 0x20000 && character <= 0x2a6df) || (character >= 0x2a700 && character <= 0x2b73f) ||

@@ -16,6 +16,7 @@ std::string composed(std::string_view text);
 bool is_blank(char32_t character);        // white space
 bool is_unprintable(char32_t character);  // control characters, and those without a meaning of their own
 bool is_punctuation(char32_t character);  // of Unicode, and ASCII's symbols: "$", "^"
+bool is_capital(char32_t character);      // a letter, of which there is a small one, too
 bool is_cjk(char32_t character);          // a Chinese character: a word of its own
 
 }  // namespace chironomia

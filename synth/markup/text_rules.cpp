@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "core/utf8.h"
 #include "synth/markup/functions.h"
+#include "synth/markup/letters.h"
 #include "synth/markup/script_words.h"
 #include "synth/markup/vocabulary.h"
 
@@ -153,6 +154,12 @@ bool are_initials(std::string_view letters) {
     return letters.size() >= 3;
 }
 
+// Whether a word is written large because a sentence begins with it; "I" is so everywhere.
+bool begins_as_a_sentence(std::string_view word) {
+    const std::string letters = plain_letters(word);
+    return is_capital(characters_of(word).front()) && letters != "i" && !letters.starts_with("i'");
+}
+
 Pause Marker::find_pause(std::size_t word) const {
     const bool is_last = word + 1 == letters_.size();
     const std::size_t from = text_.words[word].end;
@@ -171,7 +178,8 @@ Pause Marker::find_pause(std::size_t word) const {
     const bool is_stop =
         (holds_any(gap, full_stop) && !is_ellipsis && (!is_short || is_last)) || holds_any(gap, other_stops);
     if (is_blank_line(gap) && !is_last) pause.depth = Depth::paragraph;
-    if (pause.asks || pause.exclaims || is_stop || is_last)
+    const bool trails_off = is_ellipsis && !is_last && begins_as_a_sentence(text_.words[word + 1].text);
+    if (pause.asks || pause.exclaims || is_stop || trails_off || is_last)
         pause.depth = std::max(pause.depth, Depth::sentence);
     if (is_ellipsis || holds_any(gap, kSemicolons) || holds_any(gap, kDashes))
         pause.depth = std::max(pause.depth, Depth::clause);

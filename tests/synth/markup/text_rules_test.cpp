@@ -116,6 +116,17 @@ TEST(TextRules, SeeWordsAndSentencesThroughSpacesAndSignsThatAreNotSeen) {
                 ElementsAre("performative=ask(كيف حالك)", "performative=inform(بخير)"));
 }
 
+TEST(TextRules, EndSentencesAtAnEllipsisBeforeACapital) {
+    const auto acts = [](const std::string& text, const std::string& language) {
+        return marks_in(marked(text, language), MarkKind::performative);
+    };
+    EXPECT_THAT(acts("Es wiegt fast gar\u2026 Sehen Sie ihn?", "de"),
+                ElementsAre("performative=inform(Es wiegt fast gar)", "performative=ask(Sehen Sie ihn)"));
+    EXPECT_THAT(acts("They left... Émile stayed.", "en"), SizeIs(2));
+    EXPECT_THAT(acts("They left... but we stayed.", "en"), SizeIs(1));
+    EXPECT_THAT(acts("Then... I'm lost.", "en"), SizeIs(1));
+}
+
 TEST(TextRules, PutTheNuclearAccentOnTheLastContentWordOfTheRheme) {
     const MarkedText text = marked("The old machine was given to us.");
     EXPECT_THAT(marks_in(text, MarkKind::pitch_accent),
