@@ -343,7 +343,8 @@ bool Marker::mark_cues(const Stretch& clause) {
                                   (cue->place == CuePlace::clause_start && is_at_start(clause, at)) ||
                                   (cue->place == CuePlace::clause_end && end == clause.end));
         const bool is_denied = fits && can_be_denied(*cue) && is_negated(clause, at);
-        if (fits && !is_denied && !is_repeated_pointing(*cue, at)) {
+        const bool shows = fits && cue->weight > 0;
+        if (shows && !is_denied && !is_repeated_pointing(*cue, at)) {
             const bool is_social = cue->kind == MarkKind::performative && cue->value != "refuse";
             const bool is_relation = cue->kind == MarkKind::belief_relation && cue->value != "enumerate";
             add(cue->kind, cue->value, {at, is_social || is_relation ? clause.end : end, {}}, cue->weight);

@@ -102,6 +102,12 @@ Vocabulary::Vocabulary(const std::string& language) : is_known_(true) {
         Cue cue = read_cue(item);
         cues_[std::string(split_words(cue.phrase).front())].push_back(std::move(cue));
     }
+    if (const auto plain = whole.find("no_cues")) {
+        for (std::string& phrase : plain->texts(1)) {
+            const std::string first(split_words(phrase).front());
+            cues_[first].push_back({.phrase = std::move(phrase), .weight = 0});
+        }
+    }
     for (auto& [first, cues] : cues_)
         std::stable_sort(cues.begin(), cues.end(),
                          [](const Cue& a, const Cue& b) { return length_of(a) > length_of(b); });

@@ -23,7 +23,7 @@ struct Cue {
     std::string phrase;  // plain letters, one space between words
     MarkKind kind = MarkKind::world;
     std::string value;
-    double weight = 0.5;
+    double weight = 0.5;  // 0: shows nothing, and neither do its words alone
     CuePlace place = CuePlace::anywhere;
     std::string number{};  // of "second": "quantity-two", a property that hands can show; "" if none
 };
@@ -31,8 +31,8 @@ struct Cue {
 class Vocabulary {
   public:
     // English, French and German by the beginning of `language` ("en-gb"), from words/*.json: lists of words in plain
-    // letters, and of cues as [phrase, kind, value, weight, place, number]. Of any other language short words pass for
-    // function words, and no cue is known.
+    // letters, of cues as [phrase, kind, value, weight, place, number], and of phrases that are none, though a word of
+    // them alone would be. Of any other language short words pass for function words, and no cue is known.
     static const Vocabulary& of(std::string_view language);
 
     // `word` in plain letters. Of "l'homme" the part after the apostrophe decides.

@@ -226,6 +226,26 @@ TEST(TextRules, FindRelationsPropertiesPlacesAndFeelings) {
                       "certainty=certain(Of course)", "emotion=joy(wonderful)"}));
 }
 
+TEST(TextRules, DoNotTakeDoubtForCertainty) {
+    const auto certainty = [](const std::string& text, const std::string& language) {
+        return marks_in(marked(text, language), MarkKind::certainty);
+    };
+    EXPECT_THAT(certainty("Ich bin nicht sicher.", "de"), ElementsAre("certainty=uncertain(nicht sicher)"));
+    EXPECT_THAT(certainty("Ich bin sicher.", "de"), ElementsAre("certainty=certain(sicher)"));
+    EXPECT_THAT(certainty("Je ne suis pas sûr.", "fr"), ElementsAre("certainty=uncertain(pas sûr)"));
+}
+
+TEST(TextRules, TellTheMorningFromTomorrowInGerman) {
+    for (const char* text : {"Wir essen heute Morgen.", "Am Morgen essen wir.", "Jeden Morgen essen wir."})
+        EXPECT_THAT(marks_in(marked(text, "de"), MarkKind::world), IsEmpty()) << text;
+    EXPECT_THAT(marks_in(marked("Morgen essen wir.", "de"), MarkKind::world),
+                ElementsAre("world=time-future(Morgen)"));
+    const MarkedText greeting = marked("Ich wünsche Ihnen einen guten Morgen.", "de");
+    EXPECT_THAT(marks_in(greeting, MarkKind::world), IsEmpty());
+    EXPECT_THAT(marks_in(greeting, MarkKind::performative),
+                Contains(HasSubstr("performative=greet(einen guten")));
+}
+
 TEST(TextRules, OrdinalsCountOnTheFingers) {
     const auto world = [](const std::string& text, const std::string& language) {
         return marks_in(marked(text, language), MarkKind::world);
