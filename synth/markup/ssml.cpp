@@ -58,9 +58,9 @@ constexpr SsmlElement kElements[] = {
     {"speak", kSpeak},       {"p", kLanguage},   {"s", kLanguage}, {"prosody", kProsody}, {"break", kBreak},
     {"emphasis", kEmphasis}, {"say-as", kSayAs}, {"sub", kSub},    {"mark", kMark},       {"voice", kVoice}};
 
-// Of SSML 1.1, without a counterpart in the voice: the text in them is spoken as it is.
-constexpr std::string_view kUnspoken[] = {"phoneme", "audio",   "w",      "token",
-                                          "lang",    "lexicon", "lookup", "meta"};
+// Of SSML 1.1, and of Azure ("bookmark"), without a counterpart in the voice: the text in them is spoken as it is.
+constexpr std::string_view kUnspoken[] = {"phoneme", "audio",  "w",    "token",   "lang",
+                                          "lexicon", "lookup", "meta", "bookmark"};
 
 const SsmlElement* element_named(std::string_view name) {
     const auto found = std::find_if(std::begin(kElements), std::end(kElements),

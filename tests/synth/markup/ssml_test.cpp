@@ -98,6 +98,13 @@ TEST(Ssml, SpeaksTheTextOfWhatTheVoiceCannotExpress) {
                     "talk.ssml:1:104: <audio> is left out, and the text in it spoken as it is"));
 }
 
+TEST(Ssml, LeavesOutTheBookmarksOfAzure) {
+    const MarkedText text = parsed("Look <bookmark mark=\"x\"/>here.");
+    EXPECT_THAT(words_in(text), ElementsAre("Look", "here"));
+    EXPECT_THAT(text.notes,
+                ElementsAre("talk.ssml:1:14: <bookmark> is left out, and the text in it spoken as it is"));
+}
+
 TEST(Ssml, SpeaksCdataAsText) {
     const MarkedText text = parsed("<w/><![CDATA[Tom & <Jerry>]]> <emphasis>run</emphasis>");
     EXPECT_EQ(text.script, "<speak>    Tom &amp; &lt;Jerry&gt; <emphasis>run</emphasis></speak>");
