@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -54,6 +55,7 @@ class Reader {
                 "[{{\"word\": \"hello\", \"start\": 0.1, \"end\": 0.4}}]",
                 file_));
         }
+        join_pieces();
         labels_.language = language();
         if (untimed_ > 0) {
             labels_.notes.push_back(
@@ -184,7 +186,35 @@ class Reader {
     }
 
     void read_words(const Json& words, const std::string& place) {
-        for (std::size_t i = 0; i < words.size(); ++i) read_word(words[i], format("{}[{}]", place, i));
+        for (std::size_t i = 0; i < words.size(); ++i) {
+            read_word(words[i], format("{}[{}]", place, i));
+            // The first word of a segment may lack its space.
+            if (i > 0 && !begins_with_space(labels_.words.back())) pieces_.insert(labels_.words.size() - 1);
+        }
+    }
+
+    static bool begins_with_space(const TimedLabel& word) { return word.text.starts_with(' '); }
+
+    // Whisper parts "l'homme" and "là-bas", and shows by a space where a word begins. Where most words have none they
+    // are whole.
+    void join_pieces() {
+        const auto spaces = std::ranges::count_if(labels_.words, begins_with_space);
+        if (2 * static_cast<std::size_t>(spaces) < labels_.words.size()) return;
+        std::vector<TimedLabel> words;
+        for (std::size_t i = 0; i < labels_.words.size(); ++i) {
+            TimedLabel& word = labels_.words[i];
+            if (pieces_.contains(i) && word.speaker == words.back().speaker)
+                append(words.back(), word.text, word.end);
+            else
+                words.push_back(std::move(word));
+        }
+        labels_.words = std::move(words);
+    }
+
+    // Signs alone do not make a word longer.
+    static void append(TimedLabel& word, const std::string& text, double end) {
+        word.text += text;
+        if (!without_punctuation(text).empty()) word.end = end;
     }
 
     void read_transcription(const Json& parts) {
@@ -209,8 +239,7 @@ class Reader {
         if (text.starts_with("[_")) return;
         const double end = number_in(offsets, "to", place + ".offsets") / 1000;
         if (!labels_.words.empty() && !text.empty() && text[0] != ' ') {
-            labels_.words.back().text += text;
-            if (!without_punctuation(text).empty()) labels_.words.back().end = end;
+            append(labels_.words.back(), text, end);
             return;
         }
         labels_.words.push_back({.where = place,
@@ -270,6 +299,7 @@ class Reader {
     double duration_;      // of the sound [s]
     std::string speaker_;  // of the segment that is being read
     std::size_t untimed_ = 0;
+    std::set<std::size_t> pieces_;  // words that may go on with the one before
     TimedLabels labels_;
 };
 

@@ -16,7 +16,8 @@ namespace chironomia {
 // Vosk's "result", of one stretch of sound or of a list of them; Whisper's "segments", each with its "words" or,
 // without them and without words beside the segments, its "text", or the list of them that faster-whisper gives; the
 // "transcription" of whisper.cpp, in milliseconds, by its "tokens" where they are there; and Google's "results", or a
-// list of them, with times like "1.300s". Words without any time, as WhisperX and Gentle leave them, share what their
+// list of them, with times like "1.300s". Where most words begin with a space, as Whisper writes them, one without goes
+// on with the one before it in its list. Words without any time, as WhisperX and Gentle leave them, share what their
 // neighbours leave, which is noted; before the first and behind the last word that has times, up to 0.3 s each within
 // `duration`, that of the sound [s]. Throws Error with the place ("segments[0].words[2]") if something is missing or of
 // another kind.
