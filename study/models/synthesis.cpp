@@ -14,6 +14,7 @@
 #include "synth/planner/plan_gestures.h"
 #include "synth/presence/dialog_file.h"
 #include "synth/presence/turns.h"
+#include "synth/speakers/languages.h"
 #include "synth/speakers/speakers.h"
 #include "synth/speech/accents.h"
 #include "synth/speech/align.h"
@@ -358,7 +359,7 @@ Synthesized synthesize(const SynthesisJob& job) {
                               .partner = radians(job.partner_deg)};
     options.speaker.manner = overridden(options.speaker.manner, job.manner);
     if (job.voice) options.speaker.voice = *job.voice;
-    if (job.spoken_language) options.speaker.voice.language = *job.spoken_language;
+    if (job.spoken_language) options.speaker.voice.language = language_named(*job.spoken_language);
     std::optional<LearnedSynthesizer> learned;
     if (job.learned) learned.emplace(*job.learned);
     Synthesized made{.speaker = options.speaker, .gestures = ids_of(options.lexicon)};

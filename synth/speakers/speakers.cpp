@@ -8,6 +8,7 @@
 #include "core/files/json_value.h"
 #include "core/math.h"
 #include "core/text.h"
+#include "synth/speakers/languages.h"
 
 namespace chironomia {
 namespace {
@@ -116,7 +117,7 @@ Speaker read_speaker(const fs::path& file) {
 }
 
 std::string language_in(const JsonValue& value) {
-    std::string language = value.text();
+    std::string language = language_named(value.text());
     if (!is_name_of_voice(language))
         value.refuse(
             format("is {}, a language of espeak-ng is needed, such as en-us, en-gb or fr", value.shown()));

@@ -30,7 +30,7 @@ std::vector<std::string> speaker_names();
 // holds an unknown key or a bad value.
 Speaker read_speaker(const std::filesystem::path& file);
 
-// A language as espeak-ng names it. Throws Error if the text cannot be one.
+// A language as espeak-ng names it, by language_named. Throws Error if the text cannot be one.
 std::string language_in(const JsonValue& value);
 
 // One of speaker_names(), or a file with an ending. Throws Error with the nearest name if there is none such,

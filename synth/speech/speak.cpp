@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "core/utf8.h"
+#include "synth/speakers/languages.h"
 #include "synth/speech/helper.h"
 #include "synth/speech/word_times.h"
 
@@ -163,14 +164,6 @@ void expect_read(const SpeakRequest& request, const std::vector<std::string>& pa
     refuse_letters(*first, request.voice.language);
 }
 
-// " (did you mean de?)" of "de-DE", and of "fr-FR" fr-fr.
-std::string hint_at_language(const std::string& wrong, const std::vector<std::string>& names) {
-    const std::string lower = to_lower(wrong);
-    for (const std::string& meant : {lower, lower.substr(0, lower.find_first_of("-_"))})
-        if (std::ranges::find(names, meant) != names.end()) return format(" (did you mean {}?)", meant);
-    return "";
-}
-
 //   most_spelt   of its characters, share that makes no sense
 SpeakReply ask(SpeakRequest request, double most_spelt) {
     const std::size_t words = request.words.size();
@@ -181,8 +174,8 @@ SpeakReply ask(SpeakRequest request, double most_spelt) {
         case SpeakReply::Outcome::no_voices:
             refuse_voices();
         case SpeakReply::Outcome::no_language:
-            throw Error(format("espeak-ng: no voice speaks \"{}\"{}; write one of {}", request.voice.language,
-                               hint_at_language(request.voice.language, reply.names), join(reply.names)));
+            throw Error(format("espeak-ng: no voice speaks \"{}\"; write one of {}", request.voice.language,
+                               join(reply.names)));
         case SpeakReply::Outcome::no_variant:
             throw Error(format("espeak-ng: there is no variant \"{}\" of a voice; write one of {}",
                                request.voice.variant, join(reply.names)));
@@ -204,6 +197,7 @@ SpeakReply ask(SpeakRequest request, double most_spelt) {
 
 Speech speak(const MarkedText& text, const Voice& voice) {
     SpeakRequest request{.text = text.script, .is_ssml = text.is_ssml, .voice = voice};
+    request.voice.language = language_named(voice.language);
     for (const ScriptWord& word : text.words) request.words.push_back(word.text);
     check(request);
     expect_no_kanji(request);
@@ -213,11 +207,11 @@ Speech speak(const MarkedText& text, const Voice& voice) {
             return event.kind == SpeakEvent::Kind::phoneme && !event.symbol.empty();
         });
     if (!has_phonemes || text.words.empty()) refuse(request);
-    return time_words(text, reply, voice.language);
+    return time_words(text, reply, request.voice.language);
 }
 
 Audio speak(const std::string& text, const std::string& language) {
-    const SpeakRequest request{.text = text, .voice = {.language = language, .rate = 175}};
+    const SpeakRequest request{.text = text, .voice = {.language = language_named(language), .rate = 175}};
     check(request);
     return sound_of(ask(request, 0));
 }

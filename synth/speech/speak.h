@@ -13,8 +13,9 @@ namespace chironomia {
 // Mono, at the synthesizer's own rate (22050 Hz), with a pause at the end; the same samples every time. Every
 // word of `text` is a word of the speech, with its time and its phonemes; word_times.h describes how those are
 // found, and how words that are spoken as one share them. The marks of `text` are those of the speech.
-// A language is a name of espeak-ng's: "en", "en-gb", "fr", "de". SSML steers the voice as espeak-ng does it:
-// prosody (pitch, rate, volume, range), emphasis, break, say-as, voice; tags it does not know are skipped.
+// A language is a name of espeak-ng's ("en", "en-gb", "fr", "de"), or one that language_named reads. SSML steers the
+// voice as espeak-ng does it: prosody (pitch, rate, volume, range), emphasis, break, say-as, voice; tags it does not
+// know are skipped.
 // Throws Error if there is nothing to say, if no voice speaks the language or it cannot read the text (of Japanese it
 // reads kana alone; a foreign word in a text is spelt, but no kanji in Japanese), if the voice has a variant that is
 // not there or a value out of range, if the text is not UTF-8, has an SSML alias (sub) whose words nobody could time,

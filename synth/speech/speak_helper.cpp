@@ -187,7 +187,13 @@ SpeakReply answer(const SpeakRequest& request) {
         espeakINITIALIZE_PHONEME_EVENTS | espeakINITIALIZE_PHONEME_IPA | espeakINITIALIZE_DONT_EXIT);
     if (reply.rate <= 0) return refused(SpeakReply::Outcome::no_voices);
     set_seed_of_noises();
-    std::string voice = voice_for(request.voice.language);
+    // Without a region that has no voice of its own: "de" of "de-at".
+    std::string language = request.voice.language;
+    std::string voice = voice_for(language);
+    while (voice.empty() && language.find('-') != std::string::npos) {
+        language.resize(language.rfind('-'));
+        voice = voice_for(language);
+    }
     if (voice.empty()) return refused(SpeakReply::Outcome::no_language, language_names());
     if (!request.voice.variant.empty()) {
         const std::vector<std::string> variants = variant_names();

@@ -12,6 +12,7 @@
 #include "core/files/json.h"
 #include "core/files/json_text.h"
 #include "core/text.h"
+#include "synth/speakers/languages.h"
 #include "synth/speech/word_text.h"
 
 namespace chironomia {
@@ -112,16 +113,11 @@ class Reader {
         }
     }
 
-    // As the file names it, or by its code where it is one that we know; "" if the file does not say.
+    // As voices name it; "" if the file does not say.
     std::string language() const {
-        static constexpr std::pair<std::string_view, std::string_view> kCodes[] = {
-            {"english", "en"}, {"french", "fr"}, {"german", "de"}};
         const Json& about = json_.is_object() && json_.contains("result") ? json_["result"] : json_;
         if (!about.is_object() || !about.contains("language") || !about["language"].is_string()) return "";
-        const std::string name = to_lower(about["language"].get<std::string>());
-        for (const auto& [known, code] : kCodes)
-            if (name == known) return std::string(code);
-        return name;
+        return language_named(about["language"].get<std::string>());
     }
 
     void read_segments(const Json& segments, const std::string& list) {

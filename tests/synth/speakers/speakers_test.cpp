@@ -144,7 +144,7 @@ TEST(Speakers, ReadEveryKeyOfAFile) {
     write_text(file,
                R"({"expressivity": {"spc": -0.5, "oac": 1}, "space": {"above": [1, 2, 0], "below": [0, 1, 2]},
         "habits": {"handedness": -1, "lean_deg": 9, "turn_deg": -18, "height": 0.1, "brow_gain": 0, "nod_gain": 2},
-        "voice": {"language": "de", "variant": "f2", "pitch": 1, "rate": 80, "range": 3}})");
+        "voice": {"language": "de_AT", "variant": "f2", "pitch": 1, "rate": 80, "range": 3}})");
     const Speaker speaker = speaker_named(file);
     EXPECT_EQ(speaker.name, "maria");
     EXPECT_EQ(speaker.manner.values, (std::array<double, kExpressivities>{1, -0.5, 0, 0, 0, 0}));
@@ -156,7 +156,7 @@ TEST(Speakers, ReadEveryKeyOfAFile) {
     EXPECT_EQ(speaker.height, 0.1);
     EXPECT_EQ(speaker.brow_gain, 0);
     EXPECT_EQ(speaker.nod_gain, 2);
-    EXPECT_EQ(speaker.voice.language, "de");
+    EXPECT_EQ(speaker.voice.language, "de-at");
     EXPECT_EQ(speaker.voice.variant, "f2");
     EXPECT_EQ(speaker.voice.pitch, 1);
     EXPECT_EQ(speaker.voice.rate, 80);

@@ -48,5 +48,19 @@ TEST(WordsInJson, AreComposed) {
     EXPECT_EQ(read(R"([{"word": "e\u0301norme", "start": 0, "end": 1}])").words[0].text, "énorme");
 }
 
+TEST(WordsInJson, NameTheirLanguageAsVoicesDo) {
+    const auto language = [](const std::string& name) {
+        return read(R"({"language": ")" + name + R"(", "words": [{"word": "a", "start": 0, "end": 1}]})")
+            .language;
+    };
+    EXPECT_EQ(language("spanish"), "es");
+    EXPECT_EQ(language("Arabic"), "ar");
+    EXPECT_EQ(language("haitian creole"), "ht");
+    EXPECT_EQ(language("chinese"), "cmn-latn-pinyin");
+    EXPECT_EQ(language("zh"), "cmn-latn-pinyin");
+    EXPECT_EQ(language("zh-CN"), "cmn-latn-pinyin");
+    EXPECT_EQ(language("es-ES"), "es-es");
+}
+
 }  // namespace
 }  // namespace chironomia
