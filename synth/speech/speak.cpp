@@ -119,8 +119,8 @@ bool is_japanese(const SpeakRequest& request) {
 
 [[noreturn]] void refuse_letters(const std::string& letters, const std::string& language) {
     throw Error(format(
-        "espeak-ng: the voice of \"{}\" cannot read {}; write it in letters that it reads, such as kana "
-        "for Japanese, or record it",
+        "espeak-ng: the voice of \"{}\" cannot read {}; give the language of these letters (--language; of Chinese "
+        "zh for Mandarin, or yue), write it in letters that the voice reads, such as kana for Japanese, or record it",
         language, quoted(letters)));
 }
 
@@ -137,15 +137,24 @@ bool is_name_of_voice(const std::string& symbol) {
     return symbol.starts_with('(');
 }
 
-// A voice says of letters that it cannot read what they are ("Chinese letter"), most of them in English.
+// A voice says of letters that it cannot read what they are ("Chinese letter"), most of them in English, some in their
+// own language. A lone Greek letter is a symbol, which has its name.
 bool is_spelt(const std::string& part, const std::vector<std::string>& phonemes,
               const std::string& language) {
     const std::u32string characters = characters_of(part);
     const std::string_view main = main_language(language);
     const bool speaks_chinese = main == "cmn" || main == "yue" || main == "hak";
-    return (!speaks_chinese && std::any_of(characters.begin(), characters.end(), is_chinese)) ||
-           std::any_of(phonemes.begin(), phonemes.end(),
-                       [](const std::string& symbol) { return symbol.starts_with("(en"); });
+    if (!speaks_chinese && std::any_of(characters.begin(), characters.end(), is_chinese)) return true;
+    // Behind what it leaves to another voice, each voice names itself.
+    const std::string own = format("({}", main);
+    bool is_left_to_another = false;
+    for (const std::string& symbol : phonemes) {
+        if (!is_name_of_voice(symbol) || symbol.starts_with(own)) continue;
+        if (symbol.starts_with("(en")) return true;
+        is_left_to_another = true;
+    }
+    return !is_left_to_another && characters.size() > 1 &&
+           std::ranges::any_of(characters, [&](char32_t letter) { return is_spelt_by(main, letter); });
 }
 
 // Refuses a text of which the share `most` or more is spelt.

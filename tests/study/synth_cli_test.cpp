@@ -305,6 +305,15 @@ TEST_F(Synth, SaysWhyNoVoiceGivesPhonemes) {
                                 HasSubstr("): the mouth follows the loudness")));
 }
 
+TEST_F(Synth, SaysThatTheVoiceOfAnotherLanguageGivesNoPhonemes) {
+    write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(2 * 16000, 0.1f)});
+    write_text(file("w.csv"), "word,start,end\nصباح,0.2,0.8\nالخير,1,1.5\n");
+    const Outcome made = synth({"--speech", file("s.wav"), "--words", file("w.csv")});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err,
+                HasSubstr("\"en-us\" cannot read \"صباح\"; give the language of these letters (--language"));
+}
+
 TEST_F(Synth, SaysThatNoSpeechIsHeard) {
     write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(12 * 16000)});
     const Outcome silent = synth({"--speech", file("s.wav")});
@@ -618,7 +627,7 @@ TEST_F(Synth, SaysWhatIsWrong) {
     EXPECT_THAT(refusal({"--aplm", "<APLM><theme>One</rheme></APLM>"}), HasSubstr("--aplm:1:"));
     EXPECT_THAT(refusal({"--text", " "}), HasSubstr("--text"));
     EXPECT_THAT(refusal({"--text", "こんにちは。今日はいいてんきです。", "--language", "ja"}),
-                HasSubstr("\"ja\" cannot read \"今日はいいてんきです\"; write it in letters that it reads"));
+                HasSubstr("\"ja\" cannot read \"今日はいいてんきです\"; give the language of these letters"));
     EXPECT_THAT(refusal({"--gesture", "wave_hello_there"}), HasSubstr("there is no such gesture"));
     EXPECT_THAT(refusal({"--text", kText, "--lexicon", "none.json"}), HasSubstr("none.json"));
     EXPECT_THAT(refusal({"--dialog", "none.json"}), HasSubstr("none.json"));

@@ -19,5 +19,13 @@ TEST(LanguageNamed, IsTheOneThatEspeakSpeaks) {
     EXPECT_EQ(language_named(""), "");
 }
 
+TEST(IsSpeltBy, KnowsWhichLettersAVoiceReads) {
+    EXPECT_TRUE(is_spelt_by("en-us", U'ж'));
+    EXPECT_TRUE(is_spelt_by("es", U'お'));
+    EXPECT_FALSE(is_spelt_by("ru", U'ж'));
+    EXPECT_TRUE(is_spelt_by("hr", U'λ'));
+    EXPECT_FALSE(is_spelt_by("grc", U'λ'));
+}
+
 }  // namespace
 }  // namespace chironomia

@@ -95,14 +95,25 @@ TEST(Speak, KnowsLanguagesFromEachOther) {
 TEST(Speak, RefusesLettersThatTheVoiceSpellsByTheirNamesInEnglish) {
     EXPECT_EQ(
         refusal_of([] { speak("左をえらぶ", "ja"); }),
-        "espeak-ng: the voice of \"ja\" cannot read \"左をえらぶ\"; write it in letters that it reads, such as "
-        "kana for Japanese, or record it");
+        "espeak-ng: the voice of \"ja\" cannot read \"左をえらぶ\"; give the language of these letters (--language; of "
+        "Chinese zh for Mandarin, or yue), write it in letters that the voice reads, such as kana for Japanese, or "
+        "record it");
     EXPECT_THAT(refusal_of([] { speak("Choose 左.", "en"); }), HasSubstr("\"en\" cannot read \"左\""));
     EXPECT_THAT(refusal_of([] { speak("Wählen Sie 左.", "de"); }), HasSubstr("\"de\" cannot read \"左\""));
     EXPECT_THAT(refusal_of([] { speak("Wählen Sie Привет.", "de"); }),
                 HasSubstr("\"de\" cannot read \"Привет\""));
     EXPECT_THAT(refusal_of([] { say("左をえらぶ。", {.language = "ja"}); }),
                 HasSubstr("\"ja\" cannot read \"左をえらぶ\""));
+}
+
+TEST(Speak, RefusesLettersThatTheVoiceSpellsInItsOwnLanguage) {
+    for (const char* text : {"صباح الخير", "Доброе утро", "Καλημέρα", "בוקר טוב", "おはよう", "สวัสดี"})
+        EXPECT_THAT(refusal_of([&] { say(text); }), HasSubstr("\"en-us\" cannot read \"")) << text;
+    EXPECT_THAT(refusal_of([] { say("おはよう", {.language = "es"}); }), HasSubstr("\"es\" cannot read"));
+    EXPECT_THAT(refusal_of([] { say("Καλημέρα", {.language = "hr"}); }), HasSubstr("\"hr\" cannot read"));
+    EXPECT_GT(say("नमस्ते").audio.duration(), 0.3) << "it leaves Hindi to another voice";
+    EXPECT_GT(say("The word мир means peace and world.").audio.duration(), 0.5) << "a foreign word";
+    EXPECT_GT(speak("The number π is 3.14.", "en").duration(), 0.5) << "a symbol";
 }
 
 // Half of this sentence is kana, as of any in Japanese.
