@@ -314,6 +314,16 @@ TEST_F(Synth, SaysThatTheVoiceOfAnotherLanguageGivesNoPhonemes) {
                 HasSubstr("\"en-us\" cannot read \"صباح\"; give the language of these letters (--language"));
 }
 
+TEST_F(Synth, TakesRatesAndLanguagesAsOthersWriteThem) {
+    const auto bytes_of = [&](const char* rate, const char* language) {
+        const Outcome made = synth({"--text", "Hello.", "--fps", rate, "--language", language});
+        EXPECT_EQ(made.exit_code, 0) << made.err;
+        return read_bytes(file("m.h5"));
+    };
+    EXPECT_EQ(bytes_of("30000/1001", "en_US"), bytes_of("29.97", "en-us"));
+    EXPECT_NE(bytes_of("30000/1001", "en-us"), bytes_of("30", "en-us"));
+}
+
 TEST_F(Synth, SaysThatNoSpeechIsHeard) {
     write_wav(file("s.wav"), {.rate = 16000, .channels = 1, .samples = std::vector<float>(12 * 16000)});
     const Outcome silent = synth({"--speech", file("s.wav")});

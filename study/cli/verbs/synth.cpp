@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/files/wav_file.h"
+#include "core/render/rate.h"
 #include "core/text.h"
 #include "skinning/motion/motion_hdf5.h"
 #include "study/cli/options/option_kinds.h"
@@ -279,6 +280,12 @@ int run_dialog(const SynthCommand& command) {
     return kExitYes;
 }
 
+// A ratio such as 30000/1001 as a number.
+std::string decimal_rate(const std::string& text) {
+    const auto rate = parse_rate(text);
+    return rate ? format("{}", rate->per_second()) : text;
+}
+
 }  // namespace
 
 void add_synth(CLI::App& app, std::optional<Command>& result) {
@@ -301,6 +308,7 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
     add_variants(*verb, command->job.variants);
     verb->add_option("--fps", command->job.fps, "Frames per second of the motion [30]")
         ->type_name("N")
+        ->transform(decimal_rate)
         ->check(CLI::Range(1.0, 1000.0));
     add_seed(*verb, command->job.seed, "Random seed [0]");
     verb->add_option("--out", command->out, "The motion, with its labels; of a dialog a folder for all")
