@@ -33,7 +33,7 @@ std::optional<std::string> doubt_of_silent_words(const WordsOfSound& beside) {
     double loudest = 0;
     for (const float value : sound.samples) loudest = std::max(loudest, double(value) * value);
     const auto is_silent = [&](const SpokenWord& word) {
-        return energy_of(sound, word.start, word.end) <= kSilent * loudest;
+        return energy_of(beside.sound, word.start, word.end) <= kSilent * loudest;
     };
     const auto silent = std::ranges::count_if(words, is_silent);
     if (static_cast<double>(silent) <= kMany * static_cast<double>(words.size())) return std::nullopt;
