@@ -93,8 +93,8 @@ struct FitReport {
     std::vector<std::string> bridged{};  // "left_wrist: 12 frames": gaps in the keypoints that were bridged
     std::optional<LiftReport> lift{};    // of a picture
     std::vector<std::string> rested{};   // of a picture: gaps too long to be bridged, in which a part rests
-    std::vector<std::string>
-        put_back{};         // of a picture: "knee: 3 frames", in which left and right were exchanged
+    // Of a picture: "knee: 3 frames", in which left and right were exchanged.
+    std::vector<std::string> put_back{};
     double source_fps = 0;  // of the motion as it came, in whose frames `findings` count
     std::size_t source_frames = 0;
     std::vector<Finding> findings{};

@@ -13,10 +13,9 @@
 namespace chironomia {
 
 struct LiftOptions {
-    std::optional<double>
-        cutoff{};         // of the zero-phase low-pass [Hz]; 0: none, and left and right stay as the
-                          // detector has them; not set: chosen by the noise of each point, at most
-                          // kHighestCutoff
+    // Of the zero-phase low-pass [Hz]. 0: none, and left and right stay as the detector has them. Not set: chosen by the
+    // noise of each point, at most kHighestCutoff.
+    std::optional<double> cutoff{};
     double distance = 4;  // of the camera, if its lens is not known (walking_camera.h) [m]
 };
 

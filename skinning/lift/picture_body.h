@@ -66,9 +66,9 @@ struct CleanPicture {
 struct PictureCleaning {
     double fps = 30;
     double longest_bridge = 0.5;  // [s]
-    std::optional<double>
-        cutoff{};  // of the zero-phase low-pass over stretches without a gap [Hz]; 0: none, and
-                   // swaps stay; not set: chosen for each point (noise_filter.h)
+    // Of the zero-phase low-pass over stretches without a gap [Hz]. 0: none, and swaps stay. Not set: chosen for each
+    // point (noise_filter.h).
+    std::optional<double> cutoff{};
 };
 
 // Whether a frame has several points and all of them in one place: nobody is seen there.

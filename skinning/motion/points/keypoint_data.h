@@ -18,26 +18,26 @@ inline constexpr double kQuaternionTolerance = 0.01;
 
 inline constexpr double kMostConfidence = 1.2;  // some detectors go a little beyond 1
 
-// How files call how sure a point is, in lower case. Where a point has several, the first of the file counts.
+// How files call how sure a point is, in lower case, a number. Where a point has several, the first in a table or an
+// archive counts, and the first of these in JSON.
 inline const std::initializer_list<std::string_view> kConfidenceNames = {"confidence",
+                                                                         "visibility",
+                                                                         "score",
+                                                                         "c",
                                                                          "confidences",
                                                                          "conf",
-                                                                         "c",
-                                                                         "score",
                                                                          "scores",
-                                                                         "visibility",
                                                                          "vis",
-                                                                         "visible",
                                                                          "v",
+                                                                         "p",
                                                                          "likelihood",
                                                                          "prob",
                                                                          "probability",
-                                                                         "p",
                                                                          "presence",
                                                                          "keypoint_scores",
+                                                                         "keypoint_score",
                                                                          "keypoints_scores",
-                                                                         "keypoints_score",
-                                                                         "keypoint_score"};
+                                                                         "keypoints_score"};
 
 struct KeypointData {
     std::string where;                                // the file's name

@@ -1134,6 +1134,11 @@ TEST_F(KeypointText, KnowsHowSureAPointIsByManyNames) {
              "100,100,0.5,0.9,100,150,0.5,0.9,130,200,0.25,1\n",
              {.fps = 30});
     EXPECT_EQ(both.picture->confidence, (std::vector<float>{0.5f, 0.5f, 0.25f}));
+    const Motion keys =
+        read("e.json", format(R"({{"fps": 25, "frames": [{}]}})",
+                              figure(R"({"x": 0.3, "y": 1.1, "z": 0.1, "visible": true, "score": 0.9,
+                                                        "visibility": 0.25})")));
+    EXPECT_EQ(confidence(keys, 0, Landmark::left_wrist), 0.25f) << "what is visible is no number";
     const Motion beside = read("d.csv",
                                "p_id,nose_x,nose_y,neck_x,neck_y,left_wrist_x,left_wrist_y,body_score\n"
                                "7,100,100,100,150,130,200,0.5\n",

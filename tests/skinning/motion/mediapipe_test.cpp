@@ -74,7 +74,7 @@ TEST(ReadMediaPipe, ReadsTheTasksOfJavaScript) {
     EXPECT_FALSE(holds_mediapipe(file({{"landmarks", landmarks(33)}})));
 }
 
-// Whoever stands to the right is listed first in every second frame.
+// The person on the right is listed first in every second frame.
 TEST(ReadMediaPipe, FollowsOneOfSeveralPeople) {
     Json frames = Json::array();
     for (int t = 0; t < 6; ++t) {
