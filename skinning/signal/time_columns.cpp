@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/clock_time.h"
 #include "core/text.h"
 
 namespace chironomia {
@@ -43,6 +44,11 @@ std::optional<std::size_t> find_frame_column(const CsvTable& table) {
     for (std::size_t i = 0; i < table.columns.size(); ++i)
         if (std::ranges::find(kFrameNames, to_lower(table.columns[i])) != std::end(kFrameNames)) return i;
     return std::nullopt;
+}
+
+double seconds_in(const CsvTable& table, const CsvRow& row, const TimeColumn& time) {
+    const auto clock = seconds_of_clock(row.cells[time.column]);
+    return clock ? *clock : number_in(table, row, time.column) * time.unit;
 }
 
 bool is_time_column(std::string_view name) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/clock_time.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -13,22 +14,6 @@ namespace chironomia {
 namespace {
 
 constexpr std::string_view kArrow = "-->";
-
-// "1:02:03.500", "02:03,500"
-std::optional<double> seconds_of(std::string_view clock) {
-    std::string text(trim(clock));
-    for (char& letter : text)
-        if (letter == ',') letter = '.';
-    const std::vector<std::string_view> parts = split(text, ':');
-    if (parts.size() < 2 || parts.size() > 3) return std::nullopt;
-    double seconds = 0;
-    for (const std::string_view part : parts) {
-        const std::optional<double> number = parse_number(part);
-        if (!number || part.find_first_not_of("0123456789.") != std::string_view::npos) return std::nullopt;
-        seconds = seconds * 60 + *number;
-    }
-    return seconds;
-}
 
 // Lines without their ends.
 std::vector<std::string_view> lines_of(std::string_view text) {
@@ -41,8 +26,8 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 TimedLabel read_timing(std::string_view line, std::size_t number, const std::string& file) {
     const std::size_t arrow = line.find(kArrow);
     const std::vector<std::string_view> behind = split_words(line.substr(arrow + kArrow.size()));
-    const auto start = seconds_of(line.substr(0, arrow));
-    const auto end = behind.empty() ? std::nullopt : seconds_of(behind[0]);
+    const auto start = seconds_of_clock(line.substr(0, arrow));
+    const auto end = behind.empty() ? std::nullopt : seconds_of_clock(behind[0]);
     if (!start || !end) {
         throw Error(format("{}: line {}: \"{}\" is no timing; write it as 00:01.000 --> 00:02.500", file,
                            number, trim(line)));
@@ -86,7 +71,7 @@ std::vector<Part> parts_of(std::string_view written) {
             break;
         }
         const std::string_view inside = written.substr(1, end - 1);
-        const auto time = closing == '>' ? seconds_of(inside) : std::nullopt;
+        const auto time = closing == '>' ? seconds_of_clock(inside) : std::nullopt;
         if (closing == ';') parts.back().text += letter_of(inside);
         if (time) parts.push_back({.text = "", .start = time, .is_underlined = parts.back().is_underlined});
         if (closing == '>' && (inside == "u" || inside == "/u"))

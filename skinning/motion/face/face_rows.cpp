@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/clock_time.h"
 #include "core/error.h"
 #include "core/quantile.h"
 #include "core/text.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kIntensityTolerance = 0.05;  // of 5; OpenFace writes two digits and keeps within 0..5
 constexpr double kMostRate = 1000;            // [1/s]
+constexpr double kMostTime = 1e11;            // [s] dates in seconds since 1970 lie far below
 constexpr double kLongestGap = 60;            // [s] that may be bridged
 constexpr double kMostFramesPerRow = 20;      // else a few wrong times would fill the memory
 constexpr double kFreeFrames = 10000;         // that few rows may become, all the same
@@ -23,7 +25,7 @@ constexpr double kFreeFrames = 10000;         // that few rows may become, all t
 // What one step of the last digit is worth: 0.001 for "0.033".
 double last_digit(std::string_view cell) {
     if (cell.find_first_of("eE") != std::string_view::npos) return 0;
-    const size_t point = cell.find('.');
+    const size_t point = cell.find_last_of(".,");
     return point == std::string_view::npos ? 1 : std::pow(10, -static_cast<double>(cell.size() - point - 1));
 }
 
@@ -37,14 +39,22 @@ RowTimes counted_times(const CsvTable& table, double fps) {
     return result;
 }
 
-RowTimes written_times(const CsvTable& table, size_t column, double unit) {
+[[noreturn]] void refuse_number(double number, const CsvTable& table, const CsvRow& row, size_t column) {
+    throw Error(format("{}column \"{}\": {} is out of every range; a finite number is expected",
+                       table.at(row), table.columns[column], number));
+}
+
+RowTimes written_times(const CsvTable& table, const TimeColumn& time) {
     RowTimes result;
-    double finest = 1;
+    result.resolution = 1;
     for (const CsvRow& row : table.rows) {
-        result.times.push_back(finite_in(table, row, column) * unit);
-        finest = std::min(finest, last_digit(row.cells[column]));
+        const std::string_view cell = row.cells[time.column];
+        const double seconds = seconds_in(table, row, time);
+        if (!(std::abs(seconds) < kMostTime)) refuse_number(seconds, table, row, time.column);
+        result.times.push_back(seconds);
+        const double unit = seconds_of_clock(cell) ? 1 : time.unit;
+        result.resolution = std::min(result.resolution, last_digit(cell) * unit);
     }
-    result.resolution = finest * unit;
     return result;
 }
 
@@ -233,8 +243,7 @@ std::optional<std::vector<size_t>> find_group(const CsvTable& table,
 double finite_in(const CsvTable& table, const CsvRow& row, size_t column) {
     const double number = number_in(table, row, column);
     if (std::abs(number) < 1e9) return number;
-    throw Error(format("{}column \"{}\": {} is out of every range; a finite number is expected",
-                       table.at(row), table.columns[column], number));
+    refuse_number(number, table, row, column);
 }
 
 float angle_in(const CsvTable& table, const CsvRow& row, size_t column, double most) {
@@ -246,7 +255,7 @@ float angle_in(const CsvTable& table, const CsvRow& row, size_t column, double m
 
 RowTimes row_times(const CsvTable& table, std::optional<double> fps) {
     if (fps) return counted_times(table, *fps);
-    if (const auto time = find_time_column(table)) return written_times(table, time->column, time->unit);
+    if (const auto time = find_time_column(table)) return written_times(table, *time);
     throw Error(
         format("{}: there is no column of times, such as \"timestamp\" or \"time_ms\"; set the rate with "
                "--motion-fps",

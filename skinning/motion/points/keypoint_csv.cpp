@@ -181,15 +181,14 @@ void take_timing(KeypointData& data, const CsvTable& table, const std::vector<co
     const auto time = find_time_column(table);
     const auto number = find_frame_column(table);
     const auto where = [&](size_t t) { return table.at(*frame_rows[t]); };
-    const auto numbers_in = [&](size_t column) {
-        std::vector<double> numbers;
-        for (const CsvRow* row : frame_rows) numbers.push_back(number_in(table, *row, column));
-        return numbers;
-    };
+    std::vector<double> values;
     if (time) {
-        even_out_times(data, numbers_in(time->column), where);
+        // Of no unit yet, as the steps of the times say it better than a name.
+        for (const CsvRow* row : frame_rows) values.push_back(seconds_in(table, *row, {time->column, 1}));
+        even_out_times(data, values, where);
     } else if (number) {
-        fill_missing_numbers(data, numbers_in(*number), where);
+        for (const CsvRow* row : frame_rows) values.push_back(number_in(table, *row, *number));
+        fill_missing_numbers(data, values, where);
     }
 }
 

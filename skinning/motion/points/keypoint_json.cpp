@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 
+#include "core/clock_time.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "skinning/motion/points/even_frames.h"
@@ -176,7 +177,9 @@ std::optional<double> time_in(const Json& frame) {
     const Json* time =
         find_key(frame, {"time", "timestamp", "seconds", "time_s", "timestamp_ms", "timestampMs", "time_ms",
                          "timestamp_us", "timestampUs", "timestamp_usec", "time_us", "timestamp_ns"});
-    return time && time->is_number() ? std::optional(time->get<double>()) : std::nullopt;
+    if (!time) return std::nullopt;
+    if (time->is_string()) return seconds_of_clock(time->get<std::string_view>());
+    return time->is_number() ? std::optional(time->get<double>()) : std::nullopt;
 }
 
 void take_frame_times(KeypointData& data, const Json& frames) {

@@ -23,7 +23,8 @@ namespace chironomia {
 // Throws Error with the frame if the JSON has another form, or its times or numbers cannot be (even_frames.h).
 KeypointData keypoints_of_json(const Json& json, const std::string& where);
 
-// The time of a frame under one of the usual keys, such as "time", "timestamp" or "timestamp_ms", in its own unit.
+// The time of a frame under one of the usual keys, such as "time", "timestamp" or "timestamp_ms", in its own unit; in
+// seconds where it is that of a clock.
 std::optional<double> time_in(const Json& frame);
 
 // Lays the frames of a list out by their times, or else by the numbers ("frame", "frame_id", "frame_index"), that all

@@ -561,6 +561,18 @@ TEST_F(ArkitFile, KnowsTheUnitsInTheNamesOfTimes) {
     }
 }
 
+TEST_F(ArkitFile, TakesTimesOfAClockAndDates) {
+    const std::string rows = "{0}0.040,0,0,0\n{0}0.080,0,1,0\n{0}0.120,0,0,0\n";
+    for (const std::string before : {"00:00:1", "9:1", "2026-05-01 12:30:1", "177763680"}) {
+        const Motion motion =
+            read("time,eyeBlinkLeft,jawOpen,cheekPuff\n" + fmt::format(fmt::runtime(rows), before));
+        EXPECT_EQ(motion.fps, 25) << before;
+        EXPECT_EQ(motion.frames, 3u) << before;
+    }
+    EXPECT_THAT(refusal("time,eyeBlinkLeft,jawOpen,cheekPuff\n1e12,0,0,0\n"),
+                HasSubstr("a.csv:2: column \"time\": 1000000000000 is out of every range"));
+}
+
 TEST_F(ArkitFile, RefusesWhatCannotBeMeant) {
     const std::string header = "time,eyeBlinkLeft,jawOpen,cheekPuff";
     const std::map<std::string, std::string> refusals = {

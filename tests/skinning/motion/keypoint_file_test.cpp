@@ -1250,14 +1250,16 @@ TEST_F(KeypointText, TakesRoundedTimesForEvenOnes) {
 // A nose that goes aside by 0.1 m/s, so that its place says at which time it was seen.
 class UnevenFrames : public KeypointText {
   protected:
-    static std::string table(const std::string& column, const std::vector<double>& values,
+    template <typename Value = double>
+    static std::string table(const std::string& column, const std::vector<Value>& values,
                              const std::vector<double>& times) {
         std::string text = column + ",nose_x,nose_y,nose_z,neck_x,neck_y,neck_z,pelvis_x,pelvis_y,pelvis_z\n";
         for (size_t t = 0; t < values.size(); ++t)
             text += format("{},{},1.6,0.1,0,1.4,0,0,0.9,0\n", values[t], 0.1 * (times[t] - times[0]));
         return text;
     }
-    static std::string json(const char* key, const std::vector<double>& values,
+    template <typename Value = double>
+    static std::string json(const char* key, const std::vector<Value>& values,
                             const std::vector<double>& times) {
         Json frames = Json::array();
         for (size_t t = 0; t < values.size(); ++t)
@@ -1299,6 +1301,23 @@ TEST_F(UnevenFrames, MayHaveTimesInSmallerUnits) {
         EXPECT_THAT(motion.notes, Contains(format("times: 1 = {:g} s, by their usual step", 1 / unit)));
     }
     EXPECT_DOUBLE_EQ(read("a.csv", table("time", {0, 40, 80, 120}, times), {}).fps, 25);
+}
+
+TEST_F(UnevenFrames, MayHaveTimesOfAClock) {
+    const std::vector<double> times = {0, 0.055, 0.08, 0.12};
+    for (const std::string before : {"00:59:", "01:", "2026-05-01 12:30:", "2026-05-01T12:30:"}) {
+        std::vector<std::string> written;
+        for (const double time : times) written.push_back(before + format("{:06.3f}", 10 + time));
+        for (const auto& [name, text] : {std::pair{"a.csv", table("time", written, times)},
+                                         std::pair{"a.json", json("timestamp", written, times)}}) {
+            const Motion motion = read(name, text, {});
+            EXPECT_DOUBLE_EQ(motion.fps, 25) << name << " " << before;
+            EXPECT_EQ(motion.frames, 4u);
+            EXPECT_NEAR(nose_at(motion, 1), 0.04, 1e-5);
+        }
+    }
+    EXPECT_THAT(refusal("a.csv", table("time", std::vector<std::string>{"0:59", "0.1.2"}, times)),
+                HasSubstr("a.csv:3: column \"time\": \"0.1.2\" is no number"));
 }
 
 TEST_F(UnevenFrames, MayBeEverySecondOne) {
