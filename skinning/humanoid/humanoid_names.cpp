@@ -83,6 +83,10 @@ const std::map<std::string, Role, std::less<>> kWords = {
     {"lowarm", Role::lower_arm},
     {"loleg", Role::lower_leg},
     {"lowleg", Role::lower_leg},
+    {"armupper", Role::upper_arm},
+    {"armlower", Role::lower_arm},
+    {"legupper", Role::upper_leg},
+    {"leglower", Role::lower_leg},
     {"collarbone", Role::clavicle},
     {"clav", Role::clavicle},
     {"humerus", Role::upper_arm},
@@ -149,10 +153,11 @@ const std::map<std::string, Role, std::less<>> kWords = {
 
 // Words that say nothing about the part: the names of rigs, of kinds of joints, of places along a finger.
 constexpr std::array kNoise = {
-    "mixamorig", "bip",    "biped",        "valve",    "j",      "b",    "c",         "f",     "m",
-    "def",       "org",    "cc",           "base",     "bone",   "jnt",  "joint",     "jt",    "bind",
-    "sk",        "skin",   "skeleton",     "armature", "rig",    "bend", "character", "human", "actor",
-    "proximal",  "distal", "intermediate", "medial",   "avatar", "body", "root",      "fng",   "fin",
+    "mixamorig", "bip",      "biped",    "valve",        "j",      "b",       "c",     "f",         "m",
+    "def",       "org",      "cc",       "base",         "bone",   "jnt",     "joint", "jt",        "bind",
+    "sk",        "skin",     "skeleton", "armature",     "rig",    "metarig", "bend",  "character", "human",
+    "actor",     "proximal", "distal",   "intermediate", "medial", "avatar",  "body",  "root",      "fng",
+    "fin",
 };
 
 // Words of joints that only help others.

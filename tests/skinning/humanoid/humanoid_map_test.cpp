@@ -466,6 +466,21 @@ TEST(FindHumanoid, KnowsSidesInTwoLetters) {
                             {H::right_foot, "rgt_ankle"}}));
 }
 
+TEST(FindHumanoid, KnowsArmsThatAreNamedBeforeUpperAndLower) {
+    expect_parts_found(rig({{H::hips, "Hips_metarig"},
+                            {H::spine, "Spine_metarig"},
+                            {H::head, "Head_metarig"},
+                            {H::left_upper_arm, "Arm_Upper.L_metarig"},
+                            {H::left_lower_arm, "Arm.Lower.L_metarig"},
+                            {H::left_hand, "Hand.L_metarig"},
+                            {H::right_upper_arm, "arm_r_upper"},
+                            {H::right_lower_arm, "arm_r_lower"},
+                            {H::left_upper_leg, "Leg_Upper.L_metarig"},
+                            {H::left_lower_leg, "Leg.Lower.L_metarig"},
+                            {H::right_upper_leg, "leg_r_upper"},
+                            {H::right_lower_leg, "leg_r_lower"}}));
+}
+
 TEST(FindHumanoid, KnowsMikuMikuDanceNames) {
     expect_parts_found(rig({{H::hips, "センター"},
                             {H::spine, "上半身"},
