@@ -10,6 +10,10 @@ namespace {
 
 constexpr float kShortestBone = 1e-4f;  // [m]; a shorter one has no direction
 
+// Of the bone before it: a shorter end site only marks the end, and may lie anywhere. Ours; a forearm of 25 cm has hands of
+// 8 cm or more, and writers of files put such ends 1 mm away.
+constexpr float kShortestEnd = 0.06f;
+
 // The middle of the places of those joints the skeleton has.
 std::optional<Vec3> middle_of(const HumanoidMap& parts, std::span<const Vec3> places,
                               std::initializer_list<HumanJoint> wanted) {
@@ -85,10 +89,11 @@ std::optional<Vec3> straightest_child(const Skeleton& skeleton, std::span<const 
     const Vec3 here = places[static_cast<size_t>(joint)];
     const int parent = skeleton.joints[static_cast<size_t>(joint)].parent;
     const Vec3 before = parent < 0 ? Vec3(0) : here - places[static_cast<size_t>(parent)];
+    const float shortest = std::max(kShortestBone, kShortestEnd * length(before));
     std::optional<Vec3> best;
     float straightest = -2;
     for (size_t j = static_cast<size_t>(joint) + 1; j < skeleton.joints.size(); ++j) {
-        if (skeleton.joints[j].parent != joint || distance(places[j], here) < kShortestBone) continue;
+        if (skeleton.joints[j].parent != joint || distance(places[j], here) < shortest) continue;
         const float straight =
             length(before) < kShortestBone ? 0 : dot(normalize(before), normalize(places[j] - here));
         if (straight <= straightest) continue;

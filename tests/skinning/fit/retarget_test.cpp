@@ -269,6 +269,22 @@ TEST(RestPose, BringsEveryRestPoseToPalmsDownAndThumbsForward) {
     }
 }
 
+// Some writers of files put the end of a hand a millimetre away from the wrist, anywhere.
+TEST(RestPose, TakesNoDirectionFromAnEndThatOnlyMarksTheEnd) {
+    Figure figure = make_figure({.fingers = false});
+    const auto turn_of = [&] {
+        return measure_rest(figure.skeleton, figure.parts, true)
+            .tpose_of_rest[index_of(HumanJoint::left_hand)];
+    };
+    const Quat without = turn_of();
+    figure.skeleton.joints.push_back({.name = "end",
+                                      .parent = figure.parts[HumanJoint::left_hand],
+                                      .rest = {.translation = {0, 0.001f, 0}}});
+    EXPECT_LT(angle_between(turn_of(), without), 1e-6f);
+    figure.skeleton.joints.back().rest.translation = {0.06f, 0.06f, 0};
+    EXPECT_NEAR(angle_between(turn_of(), without), 45 * kDegree, 1e-4f);
+}
+
 TEST(ForearmTwist, SharesTheTwistOfTheHandBetweenElbowAndWrist) {
     const Figure figure = make_figure({});
     const PostureRig rig = posture_rig(figure.skeleton, figure.parts);
