@@ -88,10 +88,19 @@ double travel_scale(const BodyTrack& source, const PostureRig& rig) {
     return trunk > 0 && own > 0 ? own / trunk : 1;
 }
 
+// The same of the pelvis's height. An avatar without joints of feet has no length of legs, but its pelvis has a height.
+double height_scale(const BodyTrack& source, const PostureRig& rig) {
+    constexpr double kHipsOverLegs = 1.1;  // the hips' height over the length of legs: the ankle's 8 cm. Ours
+    const double legs = leg_length(source);
+    if (legs == 0 || leg_length(rest_track(rig)) > 0) return travel_scale(source, rig);
+    const float hips = rig.rest.places[size_t(rig.parts[HumanJoint::hips])].y;
+    return double(hips - rig.hips_from_pelvis.y) / (kHipsOverLegs * legs);
+}
+
 // Steps as long for the avatar's legs as the source's are for its own, from the origin on.
-void scale_travel(std::vector<Posture>& postures, double scale) {
+void scale_travel(std::vector<Posture>& postures, float steps, float height) {
     const Vec3 begin(postures.front().pelvis.x, 0, postures.front().pelvis.z);
-    for (Posture& posture : postures) posture.pelvis = float(scale) * (posture.pelvis - begin);
+    for (Posture& posture : postures) posture.pelvis = Vec3(steps, height, steps) * (posture.pelvis - begin);
 }
 
 void count_limits(FitReport& report, const MotionSource& source) {
@@ -363,7 +372,9 @@ Fit fit_motion(const Motion& motion, const Avatar& avatar, const FitOptions& opt
     if (options.relaxed_hands) forget_fingers(source.body.postures);
     complete(source, rig, still);
     report.travel_scale = travel_scale(source.body.track, rig);
-    if (!still) scale_travel(source.body.postures, report.travel_scale);
+    if (!still)
+        scale_travel(source.body.postures, float(report.travel_scale),
+                     float(height_scale(source.body.track, rig)));
     const BodyShape shape = measure_shape(avatar, rig);
     rest_hands(report, source.body.postures, at_rate, {rig, shape});
     const bool has_guessed_depth = space.camera && !shape.capsules.empty();

@@ -216,6 +216,25 @@ TEST(FitMotion, ScalesTravelByTheLengthOfTheLegs) {
     EXPECT_NEAR(fit.report.furthest_m, 2 * way, 0.01);
 }
 
+// As of toys whose legs are one joint each, far shorter than a person's against the trunk.
+TEST(FitMotion, HoldsThePelvisOfAnAvatarWithoutFeetAtItsHeight) {
+    Figure toy = make_figure({});
+    const auto joint_of = [&](HumanJoint part) -> Joint& {
+        return toy.skeleton.joints[size_t(toy.parts[part])];
+    };
+    for (const LimbParts& leg : kLegs) {
+        for (const HumanJoint part : {leg.lower, leg.end}) joint_of(part).rest.translation *= 0.3f;
+    }
+    joint_of(HumanJoint::hips).rest.translation.y = 0.3f;
+    Avatar avatar = avatar_of(toy);
+    for (const HumanJoint part :
+         {HumanJoint::left_foot, HumanJoint::left_toes, HumanJoint::right_foot, HumanJoint::right_toes}) {
+        avatar.humanoid[part] = -1;
+    }
+    const Fit fit = fit_motion(walk(make_figure({}), 31, 30), avatar, {.fps = 30});
+    for (const Pose& pose : fit.poses) EXPECT_NEAR(place(avatar, pose, HumanJoint::hips).y, 0.3f, 0.03f);
+}
+
 TEST(FitMotion, HoldsRootAndLegsStillForTheUpperBody) {
     const Figure figure = make_figure({});
     const Avatar avatar = avatar_of(figure);
