@@ -8,6 +8,7 @@
 #include "skinning/gltf/bind_pose.h"
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_file.h"
+#include "skinning/gltf/mixamo_rest.h"
 #include "skinning/signal/frame_rate.h"
 
 namespace chironomia {
@@ -119,7 +120,8 @@ Motion read_gltf_motion(const std::filesystem::path& file, std::optional<double>
             motion.joints->translations.push_back(joint.translation);
         }
     }
-    if (std::optional<BindPose> bind = bind_pose_of(scene.scene)) {
+    const bool has_skins = !scene.scene.skins.empty();
+    if (auto bind = has_skins ? bind_pose_of(scene.scene) : mixamo_rest(scene.scene.skeleton)) {
         motion.joints->skeleton = std::move(bind->skeleton);
         motion.notes.push_back(std::move(bind->note));
     }
