@@ -39,26 +39,37 @@ JoinedFile open_joined(const std::filesystem::path& path) {
     return joined;
 }
 
-// Gives the avatar its map if it is a humanoid.
+// Gives the avatar its map and the pose in which its skins were bound if it is a humanoid. Nodes may be posed so that
+// feet and knees lie behind, so the map is sought in the pose of the skins.
 HumanoidGuess guess_humanoid(GltfScene& scene) {
     Avatar& avatar = scene.avatar;
+    std::optional<BindPose> bind = bind_pose_of(avatar);
+    const Skeleton& skeleton = bind ? bind->skeleton : avatar.skeleton;
     HumanoidGuess guess = scene.named_by_file.has(HumanJoint::hips)
-                              ? check_humanoid(avatar.skeleton, scene.named_by_file)
-                              : find_humanoid(avatar.skeleton, joints_of(avatar));
-    if (!guess.refusal.empty()) return guess;
+                              ? check_humanoid(skeleton, scene.named_by_file)
+                              : find_humanoid(skeleton, joints_of(avatar));
+    if (!guess.refusal.empty()) {
+        if (avatar.skins.empty())
+            guess.refusal +=
+                "; it has no skin: a mesh alone needs a skeleton first, as Mixamo or Rigify make one";
+        return guess;
+    }
     avatar.humanoid = guess.map;
-    if (moves_meshes(avatar)) return guess;
-    avatar.humanoid = {};
-    guess.refusal =
-        "its skeleton moves none of its meshes (skin them to its joints and export them with their skin)";
+    if (const std::string_view still = part_without_mesh(avatar); !still.empty()) {
+        avatar.humanoid = {};
+        guess.refusal = format(
+            "its {} moves none of its meshes (skin them to its joints and export them with their skin)",
+            still);
+        return guess;
+    }
+    if (bind) {
+        avatar.skeleton = std::move(bind->skeleton);
+        avatar.humanoid_notes.push_back(std::move(bind->note));
+    }
     return guess;
 }
 
 Avatar made_upright(GltfScene& scene, const HumanoidGuess& guess) {
-    if (std::optional<BindPose> bind = bind_pose_of(scene.avatar)) {
-        scene.avatar.skeleton = std::move(bind->skeleton);
-        scene.avatar.humanoid_notes.push_back(std::move(bind->note));
-    }
     unmirror(scene.avatar);
     finish_human_materials(scene.avatar);
     for (const std::string& note : guess.notes) scene.avatar.humanoid_notes.push_back(note);

@@ -14,13 +14,13 @@ namespace {
 
 constexpr float kSamePlace = 0.02f;  // of the way from the hips to the head
 
-// Whether each joint is the hips or below them, (J).
-std::vector<bool> joints_of_figure(const Avatar& avatar) {
+// Whether each joint is that of the part or below it, (J).
+std::vector<bool> joints_from(const Avatar& avatar, HumanJoint part) {
     const std::vector<Joint>& joints = avatar.skeleton.joints;
     std::vector<bool> inside(joints.size(), false);
     for (size_t j = 0; j < joints.size(); ++j) {
         const int parent = joints[j].parent;
-        inside[j] = static_cast<int>(j) == avatar.humanoid[HumanJoint::hips] ||
+        inside[j] = static_cast<int>(j) == avatar.humanoid[part] ||
                     (parent >= 0 && inside[static_cast<size_t>(parent)]);
     }
     return inside;
@@ -37,7 +37,7 @@ std::string_view without_number(std::string_view name) {
 // For each joint the one of the figure that it goes with; -1 for those of the figure and those that have none, (J).
 std::vector<int> counterparts(const Avatar& avatar, const std::vector<Mat4>& world) {
     const std::vector<Joint>& joints = avatar.skeleton.joints;
-    const std::vector<bool> inside = joints_of_figure(avatar);
+    const std::vector<bool> inside = joints_from(avatar, HumanJoint::hips);
     std::map<std::string_view, int> joint_of_name;
     for (size_t j = 0; j < joints.size(); ++j) {
         if (inside[j] && !joints[j].name.empty()) joint_of_name.emplace(joints[j].name, static_cast<int>(j));
@@ -73,18 +73,25 @@ bool any_mover(const Avatar& avatar, const Surface& surface, Condition holds) {
 
 }  // namespace
 
-bool moves_meshes(const Avatar& avatar) {
-    const std::vector<bool> inside = joints_of_figure(avatar);
+std::string_view part_without_mesh(const Avatar& avatar) {
     const std::vector<int> goes_with =
         counterparts(avatar, world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton)));
-    return std::ranges::any_of(avatar.surfaces, [&](const Surface& surface) {
-        return any_mover(avatar, surface, [&](size_t j) { return inside[j] || goes_with[j] >= 0; });
-    });
+    const auto moves = [&](HumanJoint part) {
+        const std::vector<bool> inside = joints_from(avatar, part);
+        return std::ranges::any_of(avatar.surfaces, [&](const Surface& surface) {
+            return any_mover(avatar, surface, [&](size_t j) {
+                return inside[j] || (goes_with[j] >= 0 && inside[static_cast<size_t>(goes_with[j])]);
+            });
+        });
+    };
+    if (!moves(HumanJoint::hips)) return "skeleton";
+    if (!moves(HumanJoint::left_upper_arm)) return "left arm";
+    return moves(HumanJoint::right_upper_arm) ? "" : "right arm";
 }
 
 void join_second_armatures(Avatar& avatar) {
     const std::vector<Mat4> world = world_from_joints(avatar.skeleton, rest_transforms(avatar.skeleton));
-    const std::vector<bool> inside = joints_of_figure(avatar);
+    const std::vector<bool> inside = joints_from(avatar, HumanJoint::hips);
     const std::vector<int> goes_with = counterparts(avatar, world);
     std::vector<std::string> rehung, left_out;
     const auto add_once = [](std::vector<std::string>& names, const std::string& name) {

@@ -2,15 +2,17 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "core/body/avatar.h"
 
 namespace chironomia {
 
-// Whether any mesh goes with the hips, a joint below them, or an armature that join_second_armatures joins to those. The
-// avatar must be a humanoid.
-bool moves_meshes(const Avatar& avatar);
+// The part with which no mesh goes: "skeleton" where none goes with the hips, a joint below them or an armature that
+// join_second_armatures joins to those; else "left arm" or "right arm", as of a figure whose badge alone is skinned;
+// "" if all have meshes. The avatar must be a humanoid.
+std::string_view part_without_mesh(const Avatar& avatar);
 
 // Modular characters bring an armature with each garment, whose joints have the names and the places of the body's.
 // Hangs what such joints move from the body's; joints that only the garment has go with the nearest one above that has

@@ -11,6 +11,7 @@
 #include "skinning/gltf/gltf_animation.h"
 #include "skinning/gltf/gltf_motion.h"
 #include "skinning/gltf/gltf_write.h"
+#include "skinning/humanoid/humanoid_map.h"
 #include "skinning/skin.h"
 #include "tests/support/glb_file.h"
 #include "tests/support/joints.h"
@@ -64,6 +65,17 @@ TEST(BindPose, IsTheRestPoseOfAnAvatarWhoseNodesArePosed) {
                 Contains(HasSubstr("its nodes are posed, left_upper_arm by 50 degrees")));
     EXPECT_THAT(whole.humanoid_notes, Not(Contains(HasSubstr("posed"))));
     expect_same_places(skin(whole, rest_pose(whole)), skin(posed, rest_pose(posed)), 1e-4f);
+}
+
+// The feet of a kneeling or jumping figure lie behind, as if left and right were exchanged.
+TEST(BindPose, SaysWhichSideIsLeft) {
+    const TemporaryFolder folder;
+    write_posed(folder / "posed.glb", kFigure,
+                {{"left_lower_leg", {130, {1, 0, 0}}}, {"right_lower_leg", {130, {1, 0, 0}}}});
+    ASSERT_TRUE(find_humanoid(read_animated_scene(folder / "posed.glb").scene.skeleton).swapped);
+    const Avatar whole = read_avatar(kFigure), posed = read_avatar(folder / "posed.glb");
+    EXPECT_EQ(posed.humanoid[HumanJoint::left_hand], whole.humanoid[HumanJoint::left_hand]);
+    EXPECT_THAT(posed.humanoid_notes, Not(Contains(HasSubstr("swapped"))));
 }
 
 // As of a robot whose trunk and head are meshes on their joints, one of which the pose moves as well.

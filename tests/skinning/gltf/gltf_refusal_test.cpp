@@ -414,6 +414,7 @@ TEST(GltfRefusal, SaysWhatANonHumanoidLacks) {
     triangle_file().write_glb(folder / "x.glb");
     const std::string refusal = refusal_of([&] { read_avatar(folder / "x.glb"); });
     EXPECT_THAT(refusal, HasSubstr("x.glb: is no humanoid: no joint was found for hips, left_upper_arm"));
+    EXPECT_THAT(refusal, HasSubstr("it has no skin: a mesh alone needs a skeleton first"));
     EXPECT_THAT(refusal, HasSubstr("use a humanoid avatar"));
 }
 
@@ -431,6 +432,17 @@ TEST(GltfRefusal, RefusesAMeshThatNoJointMoves) {
     EXPECT_FALSE(scene.humanoid.has(HumanJoint::hips));
     EXPECT_THAT(scene.humanoid_notes, Contains(HasSubstr(why)));
     EXPECT_EQ(scene.surfaces.size(), 1u);
+}
+
+// As of a body without a skin that has a skinned badge.
+TEST(GltfRefusal, RefusesMeshesThatMoveWithTheTrunkAlone) {
+    const TemporaryFolder folder;
+    GltfBuilder file = humanoid_file();
+    for (auto& node : file.json["nodes"])
+        if (node["name"] != "mixamorig:Spine") node.erase("mesh");
+    file.write_glb(folder / "x.glb");
+    EXPECT_THAT(refusal_of([&] { read_avatar(folder / "x.glb"); }),
+                HasSubstr("x.glb: is no humanoid: its left arm moves none of its meshes"));
 }
 
 TEST(GltfRefusal, RefusesARestPoseThatIsNotFinite) {
