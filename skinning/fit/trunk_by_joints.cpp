@@ -60,6 +60,35 @@ float median_size(std::vector<float> angles) {
     return median(std::move(angles));
 }
 
+// The turn that brings a line at rest and +y to the line and the length of the trunk; nothing where they lie in one.
+std::optional<Quat> turn_by_lines(const Vec3& rest, const Vec3& line, const Vec3& axis) {
+    const auto axes_of = [](const Vec3& across, const Vec3& up) -> std::optional<Quat> {
+        const Vec3 level = across - up * dot(across, up);
+        if (length(level) < kShortestLine) return std::nullopt;
+        const Vec3 left = normalize(level);
+        return glm::quat_cast(Mat3(left, up, cross(left, up)));
+    };
+    const auto from = axes_of(rest, {0, 1, 0}), to = axes_of(line, axis);
+    if (!from || !to) return std::nullopt;
+    return normalize(*to * conjugate(*from));
+}
+
+// Whether the pelvis lies across the trunk in most frames, so that its turns say nothing.
+bool is_pelvis_across(const BodyMotion& body, const Aside& aside) {
+    std::vector<float> tips;
+    for (size_t t = 0; t < body.postures.size(); ++t)
+        tips.push_back(angle_between(body.postures[t].hips * Vec3(0, 1, 0), aside.axes[t]));
+    return median(std::move(tips)) >= kMostAside;
+}
+
+// Pelvis and chest as the joints lie, and an even spine between.
+void take_trunk_from_lines(Posture& posture, const Quat& pelvis, const Quat& chest) {
+    posture.hips = pelvis;
+    const auto count = static_cast<float>(posture.spine.size());
+    for (size_t i = 0; i < posture.spine.size(); ++i)
+        posture.spine[i] = normalize(glm::slerp(pelvis, chest, static_cast<float>(i + 1) / count));
+}
+
 // Whichever of its turns, its own and that with the chest, brings the clavicle nearer to its arm.
 void turn_clavicle(Posture& posture, const LimbParts& arm, const Quat& with_chest, const Vec3& bone) {
     std::optional<Quat>& turn = posture[arm.base];
@@ -84,6 +113,7 @@ BodyMotion turn_trunk_to_joints(BodyMotion body, const TrunkLines& lines) {
     if (chest >= kMostAside) body.chest_aside_deg = glm::degrees(double(chest));
     if (!body.pelvis_aside_deg && !body.chest_aside_deg) return body;
 
+    const bool is_across = body.pelvis_aside_deg && is_pelvis_across(body, aside);
     for (size_t t = 0; t < body.postures.size(); ++t) {
         Posture& posture = body.postures[t];
         const Vec3& axis = aside.axes[t];
@@ -102,6 +132,10 @@ BodyMotion turn_trunk_to_joints(BodyMotion body, const TrunkLines& lines) {
             const Vec3 bone = track.has(arm.base) ? track.at(t, arm.upper) - track.at(t, arm.base) : Vec3(0);
             turn_clavicle(posture, arm, glm::angleAxis(high, axis), bone);
         }
+        if (!is_across) continue;
+        const auto pelvis_turn = turn_by_lines(lines.hips, line_of(track, t, kLegs), axis);
+        const auto chest_turn = turn_by_lines(lines.shoulders, line_of(track, t, kArms), axis);
+        if (pelvis_turn && chest_turn) take_trunk_from_lines(posture, *pelvis_turn, *chest_turn);
     }
     return body;
 }
