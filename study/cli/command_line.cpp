@@ -3,7 +3,10 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include "core/text.h"
@@ -128,6 +131,31 @@ std::optional<std::string> unknown_option(const CLI::App& app, int argc, const c
     return std::nullopt;
 }
 
+// "nan" is neither below nor above a bound, so that the ranges of CLI11 let it pass.
+void refuse_nan(CLI::App& app) {
+    const auto fault_of = [](const std::string& text) {
+        const bool is_number = std::isfinite(std::strtod(text.c_str(), nullptr));
+        return is_number ? "" : format("{} is no finite number", text);
+    };
+    for (CLI::App* verb : app.get_subcommands({})) {
+        refuse_nan(*verb);
+        for (CLI::Option* option : verb->get_options()) {
+            const std::string type = option->get_type_name();
+            if (std::ranges::any_of(std::array{":FLOAT in", ":POSITIVE", ":NUMBER"},
+                                    [&](const char* kind) { return type.find(kind) != type.npos; }))
+                option->check(fault_of);
+        }
+    }
+}
+
+// In place of "At Most 1 required but received 2".
+std::string in_plain_words(std::string complaint) {
+    const std::size_t at = complaint.find(": At Most 1 required but received ");
+    if (at != complaint.npos)
+        complaint.replace(at, complaint.find('\n', at) - at, " is given more than once; give it once");
+    return complaint;
+}
+
 // The program, and what it finds on this machine.
 std::string describe_program() {
     const std::string_view torch = torch_version();
@@ -151,6 +179,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     app.require_subcommand(1);
     std::optional<Command> result;
     for (const Verb& verb : kVerbs) verb.add(home_of(verb, app), result);
+    refuse_nan(app);
     if (argc < 2) return {.command = {}, .text = app.help(), .exit_code = kExitWrongCommandLine};
     auto typo = unknown_verb(app, argc, argv);
     if (!typo) typo = unknown_option(app, argc, argv);
@@ -165,7 +194,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
         std::ostringstream said, complained;
         const int code = app.exit(problem, said, complained);
         return {.command = {},
-                .text = said.str() + complained.str(),
+                .text = said.str() + in_plain_words(complained.str()),
                 .exit_code = code == 0 ? kExitYes : kExitWrongCommandLine};
     }
     return {.command = std::move(result), .text = {}, .exit_code = kExitYes};

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "study/cli/options/option_values.h"
 #include "tests/support/support.h"
 
@@ -256,6 +258,9 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         {{"compare", "a", "b", "--update", "--html", "r.html"}, "excludes --update"},
         {{"info", "a", "b"}, "b"},
         {{"convert", "--motion", "a.bvh", "--out", "b.h5", "--fps", "0"}, "--fps"},
+        {{"convert", "--motion", "a.bvh", "--out", "b.h5", "--fps", "30", "--fps", "25"},
+         "--fps is given more than once; give it once\n"},
+        {{"study", "plan", "p.json", "--power", "--effect", "inf"}, "--effect: inf is no finite number"},
     };
     for (const WrongLine& wrong : lines) {
         const CommandLine line = parse(wrong.words);
@@ -263,6 +268,36 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         EXPECT_EQ(line.exit_code, 2);
         EXPECT_THAT(line.text, HasSubstr(wrong.says));
     }
+}
+
+// Options that take numbers show it in the help.
+TEST(ParseCommandLine, RefusesWhatIsNoFiniteNumberInEveryVerb) {
+    const std::regex option("\n +(--[a-z-]+) [^\n: ]*:(FLOAT in|POSITIVE|NUMBER)");
+    std::size_t found = 0;
+    for (const std::vector<const char*>& verb :
+         std::vector<std::vector<const char*>>{{"synth"},
+                                               {"render"},
+                                               {"convert"},
+                                               {"fit"},
+                                               {"compare"},
+                                               {"train"},
+                                               {"study", "serve"},
+                                               {"study", "plan"},
+                                               {"study", "rehearse"}}) {
+        std::vector<const char*> words = verb;
+        words.push_back("--help");
+        const std::string help = parse(words).text;
+        for (std::sregex_iterator at(help.begin(), help.end(), option); at != std::sregex_iterator(); ++at) {
+            const std::string name = (*at)[1].str();
+            words = verb;
+            words.insert(words.end(), {name.c_str(), "nan"});
+            const CommandLine line = parse(words);
+            EXPECT_EQ(line.exit_code, 2);
+            EXPECT_THAT(line.text, HasSubstr(name + ": nan is no finite number"));
+            ++found;
+        }
+    }
+    EXPECT_GE(found, 30u);
 }
 
 TEST(ParseSize, RefusesWhatIsNoPicture) {

@@ -167,7 +167,8 @@ void add_study_plan(CLI::App& study, std::optional<Command>& result) {
     verb->add_option("--effect", command->effect,
                      "The difference to find: Elo of preferences, sd of an answer of ratings [the plan's "
                      "smallest_effect, else 100, 0.3]")
-        ->type_name("X");
+        ->type_name("X")
+        ->check(CLI::Number);
     verb->add_flag("--json", command->json, "Print the plan with everything filled in instead");
     verb->callback([&result, command] {
         if (command->plan.empty() && command->folders.conditions.empty())
