@@ -9,11 +9,16 @@
 namespace chironomia {
 namespace {
 
+// espeak-ng asks a sound server for a device, which is of no use here and may never answer: no server is there.
+constexpr const char* kNoSoundServer[] = {"PULSE_SERVER=unix:/dev/null/none",
+                                          "PULSE_RUNTIME_PATH=/dev/null/none"};
+
 constexpr HelperProgram kSpeak{.name = "chironomia_speak",
                                .variable = "CHIRONOMIA_SPEAK",
                                .needed_by = "speech",
                                .built_folder = CHIRONOMIA_SPEAK_FOLDER,
-                               .remedy = "install chironomia again"};
+                               .remedy = "install chironomia again",
+                               .environment = kNoSoundServer};
 
 }  // namespace
 
