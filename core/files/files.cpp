@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/files/byte_order_mark.h"
+#include "core/hash.h"
 #include "core/input_file.h"
 #include "core/text.h"
 
@@ -21,7 +22,11 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path partial_name(const fs::path& final_path) {
-    return final_path.parent_path() / format(".{}.partial", final_path.filename().string());
+    constexpr std::size_t kLongest = 255;  // bytes of a name that the system takes
+    const std::string name = final_path.filename().string();
+    std::string hidden = format(".{}.partial", name);
+    if (hidden.size() > kLongest) hidden = format(".{}.partial", sha256(name));
+    return final_path.parent_path() / hidden;
 }
 
 // What this process makes under hidden names, so that it knows its own from those of another run. Each is kept open, as
@@ -63,6 +68,32 @@ class OwnPartials {
 // "clips/" is the folder "clips", and not what lies in it.
 fs::path without_last_slash(fs::path path) {
     return path.has_filename() || !path.has_relative_path() ? path : path.parent_path();
+}
+
+// Where links lead, so that they stay and what they name is made or replaced. At most as many as the system follows.
+fs::path followed(fs::path path) {
+    constexpr int kMostLinks = 40;
+    std::error_code none;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, none)); ++i)
+        path = without_last_slash(path.parent_path() / fs::read_symlink(path, none));
+    return path;
+}
+
+void refuse_what_is_there(const fs::path& place, const fs::file_status& there, PendingOutput::Kind kind) {
+    const std::string name = place.string();
+    const bool is_folder = kind == PendingOutput::Kind::folder;
+    const std::string what = is_folder ? "a new folder" : "a file to write";
+    if (!fs::exists(there)) return;
+    if (!fs::is_directory(there) && !fs::is_regular_file(there))
+        throw Error(format("{}: this is a pipe or a device; name {}", name, what));
+    if (!is_folder && fs::is_directory(there))
+        throw Error(format("{}: this is a folder; name {}", name, what));
+    if (is_folder && !(fs::is_directory(there) && fs::is_empty(place)))
+        throw Error(format("{}: already holds something; name a new folder or remove this one", name));
+    if (::access(place.c_str(), W_OK) != 0) {
+        throw Error(format("{}: may not be replaced ({}); change its permissions, or name {}", name,
+                           std::strerror(errno), what));
+    }
 }
 
 std::ifstream open_to_read(const fs::path& file) {
@@ -120,25 +151,19 @@ void write_bytes(const fs::path& file, std::span<const std::byte> bytes) {
 }
 
 PendingOutput::PendingOutput(fs::path final_path, Kind kind)
-    : final_(kind == Kind::folder ? without_last_slash(std::move(final_path)) : std::move(final_path)),
-      partial_(partial_name(final_)) {
+    : final_(kind == Kind::folder ? without_last_slash(std::move(final_path)) : std::move(final_path)) {
     std::error_code problem;
-    if (final_.has_parent_path()) fs::create_directories(final_.parent_path(), problem);
     const fs::file_status there = fs::status(final_, problem);
     if (there.type() == fs::file_type::none) {
         throw Error(
             format("{}: cannot be written ({}); choose another name", final_.string(), problem.message()));
     }
-    if (kind == Kind::folder && fs::exists(there) && !(fs::is_directory(there) && fs::is_empty(final_))) {
-        throw Error(
-            format("{}: already holds something; name a new folder or remove this one", final_.string()));
-    }
-    if (kind == Kind::file && fs::is_directory(there)) {
-        throw Error(format("{}: this is a folder; name a file to write", final_.string()));
-    }
-    if (kind == Kind::file && fs::exists(there) && !fs::is_regular_file(there)) {
-        throw Error(format("{}: this is a pipe or a device; name a file to write", final_.string()));
-    }
+    refuse_what_is_there(final_, there, kind);
+    if (kind == Kind::file && !final_.has_filename())
+        throw Error(format("{}: ends like a folder; name a file to write", final_.string()));
+    final_ = followed(final_);
+    partial_ = partial_name(final_);
+    if (final_.has_parent_path()) fs::create_directories(final_.parent_path(), problem);
     fs::remove_all(partial_, problem);
     const bool made = kind == Kind::folder ? fs::create_directory(partial_, problem)
                                            : std::ofstream(partial_, std::ios::binary).good();
@@ -147,6 +172,7 @@ PendingOutput::PendingOutput(fs::path final_path, Kind kind)
                            final_.string(), problem ? problem.message() : std::strerror(errno)));
     }
     OwnPartials::add(*this);
+    if (fs::exists(there)) fs::permissions(partial_, there.permissions(), problem);
 }
 
 PendingOutput::~PendingOutput() {

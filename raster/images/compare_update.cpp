@@ -136,7 +136,14 @@ SetUpdate update_file(const fs::path& expected, const fs::path& actual) {
     expect_readable(actual);
     const bool is_new = !fs::exists(expected);
     if (!is_new && is_same_file(expected, actual)) return {.kept = 1};
-    write_bytes(expected, read_bytes(actual));
+    if (fs::is_symlink(expected)) {
+        // As in a folder of references: the file takes the place of the link, and what it leads to is as it was.
+        const fs::path made = expected.parent_path() / format(".{}.accepted", expected.filename().string());
+        write_bytes(made, read_bytes(actual));
+        fs::rename(made, expected);
+    } else {
+        write_bytes(expected, read_bytes(actual));
+    }
     return is_new ? SetUpdate{.added = 1} : SetUpdate{.changed = 1};
 }
 

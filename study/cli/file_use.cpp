@@ -313,8 +313,8 @@ bool is_read(const fs::path& name, const InputPath& input) {
 
 bool is_among_files_of(const InputPath& input, const fs::path& output) {
     std::error_code none;
-    if (!fs::is_directory(input.path, none) || !is_read(output, input)) return false;
     const fs::path folder = real_path(input.path), file = real_path(output);
+    if (!fs::is_directory(input.path, none) || !is_read(file, input)) return false;
     return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 

@@ -69,7 +69,8 @@ Held forget_in_answers(const fs::path& file, const Sought& sought) {
     if (is_list) {
         write_text(file, kept.dump(1) + "\n");
     } else {
-        fs::remove(file);
+        fs::remove(fs::canonical(file));
+        fs::remove(file);  // where it was a link
     }
     return Held::the_participant;
 }
@@ -173,6 +174,16 @@ std::vector<fs::path> given_files_with(const ForgetJob& job, const Sought& sough
     return found;
 }
 
+// Files that are replaced or removed where a participant is deleted, while their other names keep the old bytes.
+std::vector<fs::path> files_with_more_names(const ForgetJob& job) {
+    std::vector<fs::path> found = files_in(StudyFolder{job.study}.closed());
+    found.insert(found.end(), job.also.begin(), job.also.end());
+    std::erase_if(found, [](const fs::path& file) {
+        return !fs::is_regular_file(file) || fs::hard_link_count(file) < 2 || is_database(file);
+    });
+    return found;
+}
+
 }  // namespace
 
 std::vector<fs::path> forget_in_copies(const fs::path& study, const fs::path& database,
@@ -192,6 +203,7 @@ ForgetSummary forget_participant(const ForgetJob& job) {
     const std::string token = read_study_pages(study.open() / "pages.json").study;
     require_database(database);
     ForgetSummary summary{.name = job.name};
+    const std::vector<fs::path> with_more_names = files_with_more_names(job);
     {
         AnswerStore store(database, Database::Use::write, token);
         const std::optional<Participant> participant = find_only(store, database, job.name);
@@ -214,6 +226,10 @@ ForgetSummary forget_participant(const ForgetJob& job) {
     for (const auto& files :
          {forget_in_copies(job.study, database, summary.name), given_files_with(job, {token, summary.name})})
         summary.changed.insert(summary.changed.end(), files.begin(), files.end());
+    for (const fs::path& file : summary.changed) {
+        if (std::ranges::find(with_more_names, file) != with_more_names.end())
+            summary.elsewhere.push_back(file);
+    }
     const fs::path analysis = study.closed() / "analysis";
     if (!files_naming(analysis, summary.name).empty()) {
         fs::remove_all(analysis);

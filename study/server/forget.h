@@ -21,6 +21,8 @@ struct ForgetSummary {
     bool was_in_database = false;                // if not: withdrawn, or deleted before
     std::size_t answers = 0;                     // that the database held
     std::vector<std::filesystem::path> changed;  // files that held the participant
+    std::vector<std::filesystem::path>
+        elsewhere{};                             // those of them that had other names, which still hold it
     std::vector<std::filesystem::path> removed;  // folders of results that were made with those answers
     std::vector<std::filesystem::path> naming;   // files of private/ in which the name still stands
 };

@@ -101,6 +101,14 @@ TEST_F(UpdateReferences, PutsAFolderInThePlaceOfALinkToOne) {
     EXPECT_NE(read_bytes(folder_ / "elsewhere/changed.png"), read_bytes(actual_ / "deep/changed.png"));
 }
 
+TEST_F(UpdateReferences, PutsAFileInThePlaceOfALinkToOne) {
+    fs::create_symlink("kept.png", expected_ / "link.png");
+    update_references(expected_ / "link.png", actual_ / "deep/changed.png");
+    EXPECT_FALSE(fs::is_symlink(expected_ / "link.png"));
+    EXPECT_EQ(read_bytes(expected_ / "link.png"), read_bytes(actual_ / "deep/changed.png"));
+    EXPECT_EQ(read_bytes(expected_ / "kept.png"), read_bytes(actual_ / "kept.png"));
+}
+
 TEST_F(UpdateReferences, RefusesAFileOfAnotherKind) {
     const fs::path reference = expected_ / "kept.png", result = folder_ / "kept.exr";
     write_image(result, plain_frame(kSize, {2, 2, 2}));

@@ -64,6 +64,15 @@ TEST_F(FileUse, LetsFoldersHaveTheNamesOfScenesAndAvatars) {
     }
 }
 
+TEST_F(FileUse, WritesAStackWhereALinkLeads) {
+    fs::create_directory(in("frames"));
+    fs::create_directory_symlink("frames", in("link"));
+    EXPECT_EQ(
+        run_line("$PROGRAM render --motion a.bvh --frames 0:1 --size 64x48 --quiet --out link/%05d.png"), 0)
+        << read_text(in("err"));
+    EXPECT_TRUE(fs::exists(in("frames/00000.png")));
+}
+
 TEST_F(FileUse, WritesNoFileUnderTheNameOfAnotherKind) {
     write_text(in("plan.json"), "{}");
     expect_refused(
@@ -96,6 +105,9 @@ TEST_F(FileUse, KeepsWhatItReads) {
     expect_refused({"convert", "--motion", in("poses"), "--out", in("poses/")}, "--out would replace");
     expect_refused({"convert", "--motion", in("poses"), "--out", in("b.bvh"), "--report",
                     in("poses/a_000000000000_keypoints.json")},
+                   "--report would write into the folder whose files --motion reads");
+    fs::create_symlink("poses/a_000000000000_keypoints.json", in("report"));
+    expect_refused({"convert", "--motion", in("poses"), "--out", in("b.bvh"), "--report", in("report")},
                    "--report would write into the folder whose files --motion reads");
     expect_refused({"convert", "--motion", in("a.bvh"), "--avatar", in("me.glb"), "--out", in("me.glb")},
                    "--out would replace what --avatar reads");

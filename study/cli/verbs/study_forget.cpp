@@ -44,6 +44,9 @@ int run(const StudyForgetCommand& command) {
                                     : std::string("no longer in the database");
     print(format("{}: {}\n", summary.name, deleted) +
           lines(summary.changed, "no longer holds the participant") +
+          lines(summary.elsewhere,
+                "had other names on this disk (hard links), which still hold the participant; delete those "
+                "files by hand") +
           lines(summary.removed,
                 "removed, because it was made with these answers; make it again with `study analyse`") +
           lines(summary.naming, "still has the name in it; look at it and delete it by hand") +
