@@ -3,7 +3,7 @@
 #include <zip.h>
 
 #include "core/error.h"
-#include "core/files/files.h"
+#include "core/files/private_output.h"
 #include "core/files/scratch_folder.h"
 #include "core/text.h"
 
@@ -82,8 +82,9 @@ std::vector<std::byte> ZipReader::read(std::size_t entry, std::size_t most_bytes
     }
 }
 
-void write_zip(const std::filesystem::path& out, const std::vector<ZipEntry>& entries) {
+void write_zip(const std::filesystem::path& out, const std::vector<ZipEntry>& entries, bool is_private) {
     const PendingOutput checked(out, PendingOutput::Kind::file);
+    if (is_private) keep_private(checked);
     // libzip puts a file of its own in the place of the one that it is given.
     const ScratchFolder scratch = ScratchFolder::within(checked.path().parent_path());
     const std::filesystem::path made = scratch.path() / "archive";
@@ -100,7 +101,8 @@ void write_zip(const std::filesystem::path& out, const std::vector<ZipEntry>& en
         zip_discard(archive);
         throw;
     }
-    scratch.move_out(made.filename(), out);
+    std::filesystem::permissions(made, std::filesystem::status(checked.path()).permissions());
+    scratch.move_out(made.filename(), checked.final_path());
 }
 
 }  // namespace chironomia

@@ -41,6 +41,8 @@ struct ZipEntry {
 // Writes the entries in their order, stored as they are, all with one date (the first of 1980, the least that zip has)
 // and one permission: the same entries give the same bytes. The archive appears whole or not at all. Throws Error if a
 // file cannot be read or the archive cannot be written.
-void write_zip(const std::filesystem::path& out, const std::vector<ZipEntry>& entries);
+//   is_private   a new archive can be read by the user of this program alone
+void write_zip(const std::filesystem::path& out, const std::vector<ZipEntry>& entries,
+               bool is_private = false);
 
 }  // namespace chironomia

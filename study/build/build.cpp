@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/json_value.h"
+#include "core/files/private_output.h"
 #include "core/files/scratch_folder.h"
 #include "core/hash.h"
 #include "core/text.h"
@@ -268,7 +269,7 @@ BuildSummary build_study(const Plan& plan, const BuildOptions& options, const Cl
     const StudyDraft draft = draft_study(plan, options.seed, maker);
     BuildSummary summary = summary_of(draft, options);
 
-    make_folder(study.closed());
+    make_private_folder(study.closed());
     const BuildLock lock(study.closed());
     if (is_finished(study, draft)) return summary;
     require_same_study_or_leave(draft, study, options);
@@ -319,7 +320,7 @@ ShardSummary build_shard(const Plan& plan, const Shard& shard, const BuildOption
     const std::vector<Video> videos = part_of(distinct_videos(draft.videos), shard);
     ShardSummary summary{.videos = videos.size()};
 
-    make_folder(study.closed());
+    make_private_folder(study.closed());
     if (is_finished(study, draft)) return summary;
     require_same_study_or_leave(draft, study, options);
     try {

@@ -90,7 +90,7 @@ PackSummary pack_study(const PackJob& job) {
         {"files", std::move(files)}};
     entries.push_back({.name = "archive.json", .file = {}, .text = manifest.dump(2) + "\n"});
     entries.push_back({.name = "SHA256SUMS", .file = {}, .text = sums});
-    write_zip(job.out, entries);
+    write_zip(job.out, entries, job.with_key);
     summary.files = entries.size();
     summary.bytes = fs::file_size(job.out);
     return summary;

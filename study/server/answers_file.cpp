@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/json_depth.h"
+#include "core/files/private_output.h"
 #include "core/text.h"
 #include "study/record/pages.h"
 #include "study/record/study_folder.h"
@@ -107,6 +108,7 @@ AnswersSummary write_answers(const std::filesystem::path& study, const std::file
     const StudyPages pages = read_study_pages(study / "public" / "pages.json");
     require_database(file);
     PendingOutput pending(out, PendingOutput::Kind::file);
+    keep_private(pending);
     std::ofstream stream(pending.path(), std::ios::binary);
     const AnswersSummary summary =
         stream_answers(file, pages.study, [&stream](std::string_view piece) { stream << piece; });

@@ -3,15 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <optional>
 
+#include "core/files/private_output.h"
 #include "core/text.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
 namespace {
 
+namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using testing::refusal_of;
 using testing::TemporaryFolder;
@@ -109,6 +112,80 @@ TEST(PendingOutput, RefusesAFolderThatHoldsSomething) {
     EXPECT_EQ(
         refusal_of([&] { PendingOutput(folder / "study", PendingOutput::Kind::folder); }),
         (folder / "study").string() + ": already holds something; name a new folder or remove this one");
+}
+
+TEST(PendingOutput, KeepsLinksAndMakesWhatTheyLeadTo) {
+    const TemporaryFolder folder;
+    write_text(folder / "deep/target", "old");
+    fs::create_symlink("deep/target", folder / "link");
+    fs::create_symlink("link", folder / "link-to-link");
+    write_text(folder / "link-to-link", "new");
+    EXPECT_EQ(read_text(folder / "deep/target"), "new");
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    fs::create_symlink("deeper/made", folder / "dangling");
+    write_text(folder / "dangling", "made");
+    EXPECT_EQ(read_text(folder / "deeper/made"), "made");
+    fs::create_directory(folder / "clips");
+    fs::create_directory_symlink("clips/", folder / "clips-link");
+    PendingOutput output(folder / "clips-link/", PendingOutput::Kind::folder);
+    write_text(output.path() / "a", "a");
+    output.commit();
+    EXPECT_TRUE(fs::is_symlink(folder / "clips-link"));
+    EXPECT_EQ(read_text(folder / "clips/a"), "a");
+}
+
+TEST(PendingOutput, KeepsThePermissionsOfWhatItReplaces) {
+    const TemporaryFolder folder;
+    write_text(folder / "a", "old");
+    fs::permissions(folder / "a", fs::perms::owner_read | fs::perms::owner_write);
+    write_text(folder / "a", "new");
+    EXPECT_EQ(fs::status(folder / "a").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST(PendingOutput, RefusesWhatIsProtectedFromWriting) {
+    if (::geteuid() == 0) GTEST_SKIP() << "the superuser may write everything";
+    const TemporaryFolder folder;
+    write_text(folder / "a", "old");
+    fs::permissions(folder / "a", fs::perms::owner_read);
+    EXPECT_EQ(
+        refusal_of([&] { write_text(folder / "a", "new"); }),
+        (folder / "a").string() +
+            ": may not be replaced (Permission denied); change its permissions, or name a file to write");
+    EXPECT_EQ(read_text(folder / "a"), "old");
+}
+
+TEST(PendingOutput, TakesNamesAsLongAsTheSystemDoes) {
+    const TemporaryFolder folder;
+    for (const std::size_t length : {246u, 247u, 255u}) {
+        const std::string name(length, 'x');
+        write_text(folder / name, "a");
+        EXPECT_EQ(read_text(folder / name), "a");
+    }
+}
+
+TEST(PendingOutput, RefusesADeviceInPlaceOfAFolder) {
+    EXPECT_EQ(refusal_of([] { PendingOutput("/dev/null", PendingOutput::Kind::folder); }),
+              "/dev/null: this is a pipe or a device; name a new folder");
+}
+
+TEST(KeepPrivate, LetsOthersReadOnlyWhatTheyCouldReadBefore) {
+    const TemporaryFolder folder;
+    const auto permissions_after_write = [&] {
+        PendingOutput output(folder / "answers.json", PendingOutput::Kind::file);
+        keep_private(output);
+        output.commit();
+        return static_cast<int>(fs::status(folder / "answers.json").permissions());
+    };
+    EXPECT_EQ(permissions_after_write(), 0600);
+    fs::permissions(folder / "answers.json", static_cast<fs::perms>(0640));
+    EXPECT_EQ(permissions_after_write(), 0640);
+}
+
+TEST(WriteText, RefusesANewNameThatEndsLikeAFolder) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(refusal_of([&] { write_text(folder / "c.csv/", "x"); }),
+              (folder / "c.csv/").string() + ": ends like a folder; name a file to write");
+    EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 TEST(WriteText, RefusesAFolderInPlaceOfAFile) {

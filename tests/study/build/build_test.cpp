@@ -93,6 +93,7 @@ TEST_F(BuildStudy, WritesThePublicAndThePrivateFiles) {
     EXPECT_EQ(summary.sheets, 4u);
     EXPECT_THAT(list_files(folder_ / "study/private"),
                 ElementsAre("key.json", "manifest.json", "plan.json", "recordings.json", "report.html"));
+    EXPECT_EQ(static_cast<int>(fs::status(folder_ / "study/private").permissions()), 0700);
     const auto open = list_files(folder_ / "study/public");
     EXPECT_THAT(open, SizeIs(14));
     for (const char* name : {"index.html", "pages.json", "player.js", "style.css"}) {
@@ -446,6 +447,13 @@ TEST_F(BuildStudy, RecordsAgainOnlyWhatAChangeConcerns) {
     EXPECT_EQ(again.recorded, 1u);
     build("fresh");
     EXPECT_EQ(files_of("study"), files_of("fresh"));
+}
+
+TEST_F(BuildStudy, ClosesThePrivateFilesToOthersAgain) {
+    build();
+    fs::permissions(folder_ / "study/private", static_cast<fs::perms>(0755));
+    build();
+    EXPECT_EQ(static_cast<int>(fs::status(folder_ / "study/private").permissions()), 0700);
 }
 
 TEST_F(BuildStudy, MendsADamagedStudy) {

@@ -72,6 +72,17 @@ class PackedStudy : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
+TEST_F(PackedStudy, IsReadableByItsOwnerAloneWithTheKey) {
+    EXPECT_EQ(pack({"--with-key"}).exit_code, 0);
+    EXPECT_EQ(static_cast<int>(fs::status(archive()).permissions()), 0600);
+    fs::permissions(archive(), static_cast<fs::perms>(0644));
+    fs::rename(archive(), folder_ / "elsewhere.zip");
+    fs::create_symlink("elsewhere.zip", archive());
+    EXPECT_EQ(pack({"--with-key"}).exit_code, 0);
+    EXPECT_TRUE(fs::is_symlink(archive()));
+    EXPECT_EQ(static_cast<int>(fs::status(archive()).permissions()), 0644) << "as what is replaced";
+}
+
 TEST_F(PackedStudy, HoldsThePublicHalfAndNothingOfTheKey) {
     add_participants();
     const Outcome outcome = pack();

@@ -205,6 +205,26 @@ TEST_F(Forgotten, AreTakenOutOfCopiesAndFilesOfAnswers) {
     }
 }
 
+TEST_F(Forgotten, AreTakenOutOfWhatLinksLeadTo) {
+    answer_as("ada");
+    const TemporaryFolder elsewhere;
+    write_answers_to(elsewhere / "all.json");
+    EXPECT_EQ(static_cast<int>(fs::status(elsewhere / "all.json").permissions()), 0600);
+    write_json(elsewhere / "one.json", read_json(elsewhere / "all.json")[0]);
+    fs::create_symlink("all.json", elsewhere / "link-to-all.json");
+    fs::create_symlink("one.json", elsewhere / "link-to-one.json");
+    fs::create_hard_link(elsewhere / "all.json", elsewhere / "same.json");
+    const Outcome outcome = forget({"ada", "--also", (elsewhere / "link-to-all.json").string(),
+                                    (elsewhere / "link-to-one.json").string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(read_json(elsewhere / "all.json"), Json::array());
+    EXPECT_FALSE(fs::exists(elsewhere / "one.json"));
+    EXPECT_THAT(outcome.out,
+                HasSubstr("link-to-all.json: had other names on this disk (hard links), which still "
+                          "hold the participant; delete those files by hand"));
+    EXPECT_THAT(outcome.out, Not(HasSubstr("link-to-one.json: had")));
+}
+
 TEST_F(Forgotten, AreFoundOrRefused) {
     answer_as("ada");
     const std::string database = default_database(folder_.path()).string();
