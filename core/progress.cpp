@@ -29,7 +29,8 @@ long long now_ms() {
 void remember_interrupt(int signal) {
     constexpr long long kAtOnce = 1000;  // [ms]
     if (interrupted == 0) first_interrupt = now_ms();
-    if (interrupted != 0 && now_ms() - first_interrupt > kAtOnce) {
+    // The system repeats SIGXCPU each second, which is no second wish.
+    if (interrupted != 0 && signal != SIGXCPU && now_ms() - first_interrupt > kAtOnce) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
@@ -45,6 +46,10 @@ double seconds(std::chrono::steady_clock::duration d) {
 void watch_for_interrupts() {
     std::signal(SIGINT, remember_interrupt);
     std::signal(SIGTERM, remember_interrupt);
+    // As nohup starts a program, it goes on.
+    for (const int signal : {SIGHUP, SIGXCPU}) {
+        if (std::signal(signal, remember_interrupt) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
 }
 
 bool was_interrupted() {

@@ -442,7 +442,7 @@ TEST(Cli, LeavesNothingWhenTheDiskIsFull) {
 }
 
 TEST(Cli, LeavesNothingUnderAFinalNameAfterInterruptAndKill) {
-    for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGKILL}) {
         const TemporaryFolder folder;
         const fs::path partial = folder / ".clip.mp4.partial";
         const Outcome outcome = testing::signal_chironomia_at(
