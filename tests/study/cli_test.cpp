@@ -524,6 +524,11 @@ TEST(Info, RefusesFilesOfOtherKinds) {
     expect_not_described(folder / "empty.mp4", "an empty file");
     write_text(folder / "notes.txt", "Call the lab.\n");
     expect_not_described(folder / "notes.txt", "a text, but neither BVH nor CSV, JSON or glTF");
+    write_text(folder / "notes.csv", std::string("\xff\xfe"
+                                                 "C\0a\0l\0l\0",
+                                                 10));
+    EXPECT_EQ(run_chironomia({"info", (folder / "notes.csv").string()}).err,
+              format("chironomia: {}: it is UTF-16; save it as UTF-8\n", (folder / "notes.csv").string()));
     expect_not_described(source_dir() / "docs/images/page-pair.jpg", "a picture in JPEG, which is not read");
     write_text(folder / "motion.pkl", "\x80\x04\x95 numpy");
     EXPECT_THAT(

@@ -66,11 +66,19 @@ bool are_words(const Json& json) {
     return list.is_array() && std::any_of(list.begin(), list.end(), is_word_or_result);
 }
 
+bool is_utf16(std::string_view begin) {
+    return begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff");
+}
+
 // The beginning of a TextGrid, of ELAN's annotations, of captions, or of a table of words; UTF-16 is what Praat writes
 // for other alphabets.
 bool begins_like_words(std::string_view begin) {
+    if (is_utf16(begin)) {
+        std::string letters(begin.substr(2));
+        std::erase(letters, '\0');
+        return begins_like_words(letters);
+    }
     const std::string_view text = trim(without_byte_order_mark(begin));
-    if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff")) return true;
     if (text.starts_with("File type = \"ooTextFile\"") || text.starts_with("\"ooTextFile\"") ||
         text.starts_with("WEBVTT") || text.find("<ANNOTATION_DOCUMENT") != std::string_view::npos)
         return true;
@@ -160,6 +168,7 @@ FileKind kind_of(const fs::path& file) {
     if (begin.starts_with("glTF")) return is_skeleton_alone(file) ? FileKind::motion : FileKind::avatar;
     if (word.starts_with("{") || word.starts_with("[")) return kind_of_json(file);
     if (begins_like_words(begin)) return FileKind::words;
+    if (is_utf16(begin)) throw Error(format("{}: it is UTF-16; save it as UTF-8", file.string()));
     const bool motion = word.starts_with("HIERARCHY") || begin.starts_with("\x89HDF") ||
                         begin.starts_with("PK\x03") || begin.starts_with("\x93NUMPY") || ending == ".csv" ||
                         ending == ".bvh";
