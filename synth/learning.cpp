@@ -1,9 +1,5 @@
 #include "synth/learning.h"
 
-#include <unistd.h>
-
-#include <atomic>
-
 #include "core/error.h"
 #include "core/files/helper_program.h"
 #include "core/text.h"
@@ -43,17 +39,6 @@ Json ask_to_learn(const Json& job) {
                    helper.string(), answer.exit_code));
     }
     return reply;
-}
-
-JobFolder::JobFolder() {
-    static std::atomic<unsigned> count{0};
-    path_ = std::filesystem::temp_directory_path() / format("chironomia-learned-{}-{}", getpid(), ++count);
-    std::filesystem::create_directories(path_);
-}
-
-JobFolder::~JobFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace chironomia

@@ -22,6 +22,7 @@
 #include <filesystem>
 
 #include "core/files/json.h"
+#include "core/files/scratch_folder.h"
 
 namespace chironomia {
 
@@ -29,19 +30,15 @@ namespace chironomia {
 // and where it was built. Throws Error with what the helper refuses, and if it is not there or breaks down.
 Json ask_to_learn(const Json& job);
 
-// Where a job's files lie while it runs: a folder among the temporary ones, removed with this.
+// Where a job's files lie while it runs: a folder among the temporary ones, removed with this. Throws Error if none can
+// be made.
 class JobFolder {
   public:
-    JobFolder();
-    ~JobFolder();
-    JobFolder(const JobFolder&) = delete;
-    JobFolder& operator=(const JobFolder&) = delete;
-
-    std::filesystem::path inputs() const { return path_ / "inputs.h5"; }
-    std::filesystem::path result() const { return path_ / "result.h5"; }
+    std::filesystem::path inputs() const { return folder_.path() / "inputs.h5"; }
+    std::filesystem::path result() const { return folder_.path() / "result.h5"; }
 
   private:
-    std::filesystem::path path_;
+    ScratchFolder folder_{"learned"};
 };
 
 }  // namespace chironomia

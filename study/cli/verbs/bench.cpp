@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/files/files.h"
 #include "core/files/json.h"
+#include "core/files/scratch_folder.h"
 #include "core/text.h"
 #include "raster/embree/ray_renderer.h"
 #include "raster/ffmpeg/clip_writer.h"
@@ -146,15 +147,14 @@ Json trace_alone() {
 }
 
 Json measure(RendererKind renderer) {
-    const fs::path folder = fs::temp_directory_path() / format("chironomia-bench-{}", getpid());
-    fs::create_directories(folder);
+    const ScratchFolder scratch("bench");
+    const fs::path& folder = scratch.path();
     const Cost help = least_cost(5, {"--help"});
     const Cost start = least_cost(3, render_arguments(renderer, folder / "start.mp4", 1));
     const Cost clip = least_cost(3, render_arguments(renderer, folder / "clip.mp4", kFrames));
     const Cost stack = cost_of(render_arguments(renderer, folder / "stack/%05d.png", kFrames));
     const double encode_ms = encode_alone(folder / "stack", folder / "encoded.mp4");
     const Cost compare = cost_of({"compare", (folder / "stack").string(), (folder / "stack").string()});
-    fs::remove_all(folder);
 
     const auto per_frame = [&start](double all, double of_start) { return (all - of_start) / (kFrames - 1); };
     const double ms_per_frame = per_frame(clip.wall_ms, start.wall_ms);
