@@ -16,14 +16,19 @@ struct Record {
     size_t line = 0;        // where it begins
 };
 
+// Lines end with a carriage return alone where there is no other end of a line, as classic Mac OS wrote them.
+char line_end_of(std::string_view text) {
+    return text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n';
+}
+
 // Quotes count where a cell begins with one.
-Record record_at(std::string_view text, size_t begin, char separator) {
-    const size_t line_end = std::min(text.find('\n', begin), text.size());
+Record record_at(std::string_view text, size_t begin, char separator, char newline) {
+    const size_t line_end = std::min(text.find(newline, begin), text.size());
     const std::string_view line = text.substr(begin, line_end - begin);
     if (line.find('"') == std::string_view::npos) return {.cells = split(line, separator), .end = line_end};
     Record record{.cells = {}, .end = begin};
     bool is_quoted = false, is_blank = true;
-    for (size_t& at = record.end; at < text.size() && (is_quoted || text[at] != '\n'); ++at) {
+    for (size_t& at = record.end; at < text.size() && (is_quoted || text[at] != newline); ++at) {
         const char c = text[at];
         if (is_quoted && c == '"') {
             is_quoted = text.substr(at + 1).starts_with('"');
@@ -43,8 +48,10 @@ Record record_at(std::string_view text, size_t begin, char separator) {
 }
 
 // The one that gives the first record most columns.
-char separator_of(std::string_view text, size_t begin) {
-    const auto columns = [&](char separator) { return record_at(text, begin, separator).cells.size(); };
+char separator_of(std::string_view text, size_t begin, char newline) {
+    const auto columns = [&](char separator) {
+        return record_at(text, begin, separator, newline).cells.size();
+    };
     char best = ',';
     for (const char c : {';', '\t'}) {
         if (columns(c) > columns(best)) best = c;
@@ -56,11 +63,13 @@ char separator_of(std::string_view text, size_t begin) {
 class Records {
   public:
     explicit Records(std::string_view text, bool has_comments = true)
-        : text_(text), has_comments_(has_comments) {}
+        : text_(text), has_comments_(has_comments), newline_(line_end_of(text)) {
+        skip_separator_line();
+    }
 
     std::optional<Record> next() {
         while (begin_ < text_.size()) {
-            const size_t line_end = std::min(text_.find('\n', begin_), text_.size());
+            const size_t line_end = std::min(text_.find(newline_, begin_), text_.size());
             if (is_content(text_.substr(begin_, line_end - begin_))) return take();
             begin_ = line_end + 1;
             ++line_;
@@ -69,22 +78,34 @@ class Records {
     }
 
   private:
+    // "sep=;", by which Excel names the separator.
+    void skip_separator_line() {
+        constexpr std::string_view kNames = "sep=";
+        const std::string_view line = text_.substr(0, text_.find(newline_));
+        const std::string_view rest = trim(line.substr(std::min(line.size(), kNames.size())));
+        if (!line.starts_with(kNames) || rest.size() > 1) return;
+        if (!rest.empty()) separator_ = rest[0];
+        begin_ = std::min(line.size() + 1, text_.size());
+        line_ = 2;
+    }
+
     bool is_content(std::string_view line) const {
         return !trim(line).empty() && !(has_comments_ && line.starts_with('#'));
     }
 
     Record take() {
-        if (!separator_) separator_ = separator_of(text_, begin_);
-        Record record = record_at(text_, begin_, *separator_);
+        if (!separator_) separator_ = separator_of(text_, begin_, newline_);
+        Record record = record_at(text_, begin_, *separator_, newline_);
         record.line = line_;
         const std::string_view whole = text_.substr(begin_, record.end - begin_);
-        line_ += 1 + static_cast<size_t>(std::count(whole.begin(), whole.end(), '\n'));
+        line_ += 1 + static_cast<size_t>(std::count(whole.begin(), whole.end(), newline_));
         begin_ = record.end + 1;
         return record;
     }
 
     std::string_view text_;
     bool has_comments_;
+    char newline_;
     size_t begin_ = 0, line_ = 1;
     std::optional<char> separator_;
 };

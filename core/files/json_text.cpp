@@ -73,6 +73,8 @@ Json parse_json(const std::string& text, const std::filesystem::path& file) {
         if (const std::string mended = with_null_for_nan(text); !mended.empty())
             return parse_json(mended, file);
         if (trim(text).empty()) throw Error(format("{}: the file is empty; JSON is expected", file.string()));
+        if (text.starts_with("\x1f\x8b"))
+            throw Error(format("{}: it is packed with gzip; unpack it with gunzip", file.string()));
         if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') < 4)
             throw Error(format("{}: it is UTF-16; save it as UTF-8", file.string()));
         // The library counts bytes from 1; people count lines and columns.

@@ -213,6 +213,8 @@ AnswersFolder look_into(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string extension = extension_of(entry.path());
         const std::string name = entry.path().filename().string();
+        // As macOS leaves them beside files: "._a.json".
+        if (name.starts_with('.')) continue;
         if (entry.is_directory()) {
             inside.folders.push_back(name);
         } else if (entry.is_regular_file() && (extension == ".json" || extension == ".csv")) {

@@ -33,6 +33,20 @@ TEST(CsvTable, KeepsSeparatorsLineEndsAndQuotesOfQuotedCells) {
     EXPECT_THAT(csv_columns("\"a,b\",c\n", "a.csv"), ElementsAre("a,b", "c"));
 }
 
+TEST(CsvTable, SkipsTheLineInWhichExcelNamesTheSeparator) {
+    const CsvTable table = parse_csv_table("sep=;\r\na,b;c\r\n1;2\r\n", "a.csv");
+    EXPECT_THAT(table.columns, ElementsAre("a,b", "c"));
+    EXPECT_EQ(table.rows[0].line, 3u);
+}
+
+TEST(CsvTable, EndsLinesAsClassicMacOsDid) {
+    const CsvTable table = parse_csv_table("a;b\r1;\"2\"\r3;4\r", "a.csv");
+    EXPECT_THAT(table.columns, ElementsAre("a", "b"));
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_THAT(table.rows[1].cells, ElementsAre("3", "4"));
+    EXPECT_EQ(table.rows[1].line, 3u);
+}
+
 TEST(CsvTable, RefusesQuotesThatDoNotMatch) {
     EXPECT_EQ(refusal_of([] { parse_csv_table("a,b\n1,\"2\n3,4\n", "a.csv"); }),
               "a.csv:2: a quote is opened and never closed; close it");

@@ -25,6 +25,7 @@ TEST(ReadJson, RefusesOtherEncodingsAndEmptyFiles) {
     };
     EXPECT_EQ(refusal(std::string("\xff\xfe{\0}\0", 6)), ": it is UTF-16; save it as UTF-8");
     EXPECT_EQ(refusal(std::string("{\0}\0", 4)), ": it is UTF-16; save it as UTF-8");
+    EXPECT_EQ(refusal(std::string("\x1f\x8b\b\0\0", 5)), ": it is packed with gzip; unpack it with gunzip");
     EXPECT_EQ(refusal("[\n\"caf\xe9\"]"), ":2:6: this byte is no UTF-8; save the file as UTF-8");
     EXPECT_EQ(refusal(" \n"), ": the file is empty; JSON is expected");
 }

@@ -76,6 +76,7 @@ TEST(AnalyseCli, NamesWhatItDoesNotReadOfAFolder) {
     write_json(folder / "all/1.json", answers[0]);
     write_json(folder / "all/2.JSON", answers[1]);
     write_json(folder / "all/second wave/3.json", answers[2]);
+    write_text(folder / "all/._1.json", std::string("\0\5\x16\7", 4));  // as macOS leaves it
     for (int i = 0; i < 7; ++i) write_json(folder / "all" / format("n{}.txt", i), answers[3]);
     const Outcome outcome =
         run_chironomia({"study", "analyse", (folder / "study").string(), "--answers",
