@@ -9,7 +9,9 @@
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <condition_variable>
+#include <cstring>
 #include <deque>
 #include <mutex>
 #include <thread>
@@ -22,6 +24,14 @@
 
 namespace chironomia::study::server {
 namespace {
+
+const char* remedy_of_port(int problem) {
+    if (problem == EACCES)
+        return "ports under 1024 need rights that you have not: choose another with --port, such as 8000";
+    if (problem == EADDRINUSE)
+        return "another program uses this port: end it, or choose another port with --port";
+    return "check --host and --port";
+}
 
 constexpr int kBacklog = 1024;
 constexpr std::size_t kLongestPath = 1024;
@@ -235,16 +245,16 @@ class HttpServer::Listener : public httplib::Server {
     }
 
     void bind() {
+        errno = 0;
         if (options_.port == 0) {
             port_ = bind_to_any_port(options_.host);
         } else {
             port_ = bind_to_port(options_.host, options_.port) ? options_.port : -1;
         }
         if (port_ <= 0) {
-            throw Error(
-                format("{}:{}: cannot be listened to; another program may use this port: choose another with "
-                       "--port, and check --host",
-                       options_.host, options_.port));
+            throw Error(format("{}:{}: cannot be listened to ({}); {}", options_.host, options_.port,
+                               errno == 0 ? "there is no such host" : std::strerror(errno),
+                               remedy_of_port(errno)));
         }
         // The library lets 5 connections wait for us; many people start at the same time.
         ::listen(svr_sock_, kBacklog);

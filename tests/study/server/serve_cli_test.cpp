@@ -217,6 +217,18 @@ TEST(ServeCli, RefusesASecondServer) {
     EXPECT_THAT(third.wait_for_out("token"), HasSubstr("token")) << "a killed server leaves no lock";
 }
 
+TEST(ServeCli, SaysWhyAPlaceCannotBeListenedTo) {
+    const TemporaryFolder folder;
+    write_sample_study(folder.path(), {});
+    // An address for documentation (RFC 5737), which no machine has.
+    const Outcome refused =
+        run_chironomia({"study", "serve", folder.path().string(), "--port", "0", "--host", "192.0.2.1"});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_THAT(refused.err,
+                HasSubstr("192.0.2.1:0: cannot be listened to (Cannot assign requested address); "
+                          "check --host and --port"));
+}
+
 TEST(ServeCli, LeavesNothingWhereThePortIsTaken) {
     const TemporaryFolder folder;
     for (const char* name : {"first", "second"}) write_sample_study(folder / name, {});
@@ -229,7 +241,9 @@ TEST(ServeCli, LeavesNothingWhereThePortIsTaken) {
                                             port.substr(0, port.find('/'))};
     const Outcome refused = run_chironomia(words);
     EXPECT_EQ(refused.exit_code, 3);
-    EXPECT_THAT(refused.err, HasSubstr(": cannot be listened to; another program may use this port"));
+    EXPECT_THAT(
+        refused.err,
+        HasSubstr(": cannot be listened to (Address already in use); another program uses this port"));
     EXPECT_EQ(list_files(folder / "second"), files) << "neither a database nor its lock";
 }
 
