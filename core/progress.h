@@ -8,8 +8,8 @@
 
 namespace chironomia {
 
-// From now on SIGINT and SIGTERM make the next Progress::step() throw Interrupted. A second one, a
-// second later, ends the process.
+// From now on SIGINT, SIGTERM, SIGHUP and SIGXCPU make the next Progress::step() throw Interrupted; the last two unless
+// they are ignored. A second one, a second later, ends the process, SIGXCPU excepted.
 void watch_for_interrupts();
 
 // Whether one came since then; for work that ends well when it is interrupted.

@@ -84,11 +84,14 @@ TEST(Machine, SpeaksWithoutASoundServer) {
 }
 
 TEST(Machine, SaysThatTheFolderForTemporaryFilesIsMissing) {
-    const Variable temporary("TMPDIR", "/proc/none");
-    const Outcome bench = run_chironomia({"bench"});
-    EXPECT_EQ(bench.exit_code, 3);
-    EXPECT_THAT(bench.err, HasSubstr("bench-"));
-    EXPECT_THAT(bench.err, HasSubstr("let TMPDIR name a folder that can be written in"));
+    const TemporaryFolder folder;
+    const fs::path err = folder / "err";
+    const int status = std::system(
+        format("TMPDIR=/proc/none '{}' bench 2>'{}'", testing::chironomia_binary().string(), err.string())
+            .c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 3);
+    EXPECT_THAT(read_text(err), HasSubstr("bench-"));
+    EXPECT_THAT(read_text(err), HasSubstr("let TMPDIR name a folder that can be written in"));
 }
 
 // As under nohup: the work is done to its end.
