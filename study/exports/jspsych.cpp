@@ -51,6 +51,7 @@ Json study_json(const ExportSource& source) {
     }
     return {{"study", pages.study},
             {"language", pages.language},
+            {"texts", pages.texts},
             {"title", pages.title},
             {"width", pages.width},
             {"instructions", html_of(pages.instructions)},
@@ -74,6 +75,7 @@ Export make_jspsych(const ExportSource& source) {
     Export made = {
         .files = {{.path = "index.html", .text = page},
                   {.path = "experiment.js", .text = read_text(find_asset("study/exports/web/experiment.js"))},
+                  {.path = "texts.js", .text = read_text(find_asset("study/web/texts.js"))},
                   {.path = "study.js", .text = "const study = " + study_json(source).dump(1) + ";\n"}},
         .videos = all_videos(source),
         .notes = {
@@ -85,7 +87,8 @@ Export make_jspsych(const ExportSource& source) {
                   "each one with DataPipe as soon as it is given"
                 : "DataPipe writes a file of all answers so far after each page; switch its validation of "
                   "data off, and give all files to `study analyse`"}};
-    note_english(made, source, "buttons and messages are");
+    if (!source.study.pages.language.starts_with("fr"))
+        note_english(made, source, "buttons and messages that \"texts\" of the plan leaves out are");
     return made;
 }
 

@@ -1,10 +1,16 @@
 // Shows a study with jsPsych. What is shown is in study.js. Each answer is kept as soon as it is given: in this browser, so
 // that a reload goes on where it was, and with DataPipe, if the export names an experiment there. At the end the answers
-// are offered as a file of the form "chironomia answers 2"; they are in jsPsych's own data too.
+// are offered as a file of the form "chironomia answers 2"; they are in jsPsych's own data too. Its words are those of
+// the study's own page, in texts.js.
 'use strict';
 
 const query = new URLSearchParams(location.search);
-const jsPsych = initJsPsych({show_progress_bar: true, on_finish: finish});
+const jsPsych = initJsPsych({show_progress_bar: true, message_progress_bar: '', on_finish: finish});
+const speaker = new Speaker(study.language, study.texts);
+
+function say(name, values) {
+  return escapeHtml(speaker.say(name, values));
+}
 
 // ---- What is kept
 
@@ -113,11 +119,22 @@ function videosHtml(step) {
     const name = combined ? '' : step.names[place] || '';
     return `<figure style="flex: 0 1 ${study.width}px; min-width: 0; margin: 0">${name && nameHtml(name)}
        <video src="${escapeHtml(address)}" controls playsinline preload="auto" ${step.sound ? '' : 'muted'}
-        aria-label="${escapeHtml(`Video ${name}`.trim())}" style="display: block; width: 100%"></video></figure>`;
+        aria-label="${say(name ? 'video_named' : 'video', {name})}" style="display: block; width: 100%"></video></figure>`;
   });
   const halves = combined ? `<div style="display: flex">${step.names.map(nameHtml).join('')}</div>` : '';
-  return `${halves}<div style="display: flex; justify-content: center; gap: 1em">${videos.join('')}</div>
-    <p>${escapeHtml(step.caption)}</p>`;
+  return `${headingHtml(step)}${halves}
+    <div style="display: flex; justify-content: center; gap: 1em">${videos.join('')}</div>
+    <p>${escapeHtml(step.caption)}</p><p id="hint" role="status">${hintOf(videos.length)}</p>`;
+}
+
+function headingHtml(step) {
+  const steps = study.sheets[kept.sheet];
+  return `<h1 style="font-size: 1em">${say('page_of', {n: steps.indexOf(step) + 1, all: steps.length})}</h1>`;
+}
+
+// Why nothing can be answered yet.
+function hintOf(videos) {
+  return say(videos === 1 ? 'watch_one' : videos === 2 ? 'watch_both' : 'watch_all');
 }
 
 // A video is watched from its beginning to its end, at its own speed.
@@ -136,6 +153,14 @@ function holdBack(video) {
   });
 }
 
+// Two voices at once cannot be judged; silent videos may run together.
+function silenceOthers(videos, playing) {
+  if (playing.muted) return;
+  for (const other of videos) {
+    if (other !== playing) other.pause();
+  }
+}
+
 function waitForVideos() {
   const videos = [...document.querySelectorAll('video')];
   const locked = [...document.querySelectorAll('button, input[type=submit], #questions')];
@@ -143,9 +168,12 @@ function waitForVideos() {
   locked.forEach((one) => { one.disabled = true; });
   for (const video of videos) {
     holdBack(video);
+    video.addEventListener('play', () => silenceOthers(videos, video));
     video.addEventListener('ended', () => {
       waiting.delete(video);
-      if (waiting.size === 0) locked.forEach((one) => { one.disabled = false; });
+      if (waiting.size > 0) return;
+      locked.forEach((one) => { one.disabled = false; });
+      document.getElementById('hint').innerHTML = say('answer_now');
     });
   }
 }
@@ -159,7 +187,7 @@ function waitForReasons(questions) {
       const chosen = document.querySelector(`input[name="${question.id}"]:checked`);
       list.disabled = !needsReasons(question, chosen && Number(chosen.value));
       const given = inputs.some((input) => (input.type === 'checkbox' ? input.checked : input.value.trim() !== ''));
-      inputs[0].setCustomValidity(list.disabled || given ? '' : 'Please choose a reason too.');
+      inputs[0].setCustomValidity(list.disabled || given ? '' : speaker.say('give_reason'));
     };
     list.form.addEventListener('input', refresh);
     refresh();
@@ -184,7 +212,7 @@ function waitForSliders() {
 }
 
 function requireSlider(slider) {
-  if (!slider.name) slider.setCustomValidity('Please move this slider, or click on it.');
+  if (!slider.name) slider.setCustomValidity(speaker.say('not_set'));
 }
 
 // An optional question of all videos is left open or answered for each of them: an answer to one asks for the others.
@@ -227,7 +255,8 @@ function pointsOf(rating) {
   return range(1, rating.points).map((point) => [point, `${point} ${rating.labels?.[point] || ''}`.trim()]);
 }
 
-function fieldHtml(question, name, names) {
+// `labels` are the elements that name the field.
+function fieldHtml(question, name, names, labels) {
   const needed = question.optional ? '' : 'required';
   switch (question.kind) {
     case 'preference': return radios(name, question.answers.map((text, i) => [i + 1, text]), question.optional);
@@ -235,15 +264,18 @@ function fieldHtml(question, name, names) {
       return radios(name, pointsOf(question), question.optional);
     case 'slider':
       return `<input type="range" data-name="${name}" data-needed="${needed}" min="${question.least}"
-               max="${question.most}" style="width: 100%">
-              <div style="display: flex; justify-content: space-between">
-              ${[...question.labels || []].reverse().map((text) => `<span>${escapeHtml(text)}</span>`).join('')}</div>`;
+               max="${question.most}" aria-labelledby="${labels}" aria-describedby="labels-${name}" style="width: 100%">
+              <div id="labels-${name}" style="display: flex; justify-content: space-between">
+              ${[...question.labels || []].reverse().map((text) => `<span>${escapeHtml(text)}</span>`).join(' ')}</div>`;
     case 'choice':
       return radios(name, question.of_videos ? names.map((text, place) => [place, text]) :
           question.options.map((option) => [option.id, option.text]), question.optional);
     case 'number':
-      return `<input type="number" step="any" name="${name}" min="${question.least ?? ''}" max="${question.most ?? ''}" ${needed}>`;
-    default: return `<textarea name="${name}" rows="3" cols="50" style="max-width: 100%" ${needed}></textarea>`;
+      return `<input type="number" step="any" name="${name}" aria-labelledby="${labels}" min="${question.least ?? ''}"
+               max="${question.most ?? ''}" ${needed}>`;
+    default:
+      return `<textarea name="${name}" aria-labelledby="${labels}" rows="3" cols="50" style="max-width: 100%"
+               ${needed}></textarea>`;
   }
 }
 
@@ -259,11 +291,17 @@ function reasonsHtml(question) {
 }
 
 function questionHtml(question, names) {
-  const fields = question.each ? names.map((name, place) =>
-      `<p><b>${escapeHtml(name)}</b> ${fieldHtml(question, `${question.id}.${place}`, names)}</p>`).join('') :
-      `<p>${fieldHtml(question, question.id, names)}</p>`;
-  const text = question.optional ? `${question.text} (optional)` : question.text;
-  return `<fieldset id="question-${question.id}" style="min-width: 0"><legend>${escapeHtml(text)}</legend>${fields}${reasonsHtml(question)}</fieldset>`;
+  const id = `question-${question.id}`;
+  const fieldOf = (name, place) => {
+    const labels = `${id}-text ${id}-${place}`;
+    return `<div role="group" aria-labelledby="${labels}" style="margin: 1em 0"><b id="${id}-${place}">${escapeHtml(name)}</b>
+      ${fieldHtml(question, `${question.id}.${place}`, names, labels)}</div>`;
+  };
+  const fields = question.each ? names.map(fieldOf).join('') :
+      `<p>${fieldHtml(question, question.id, names, `${id}-text`)}</p>`;
+  const text = escapeHtml(question.text) + (question.optional ? ` (${say('optional')})` : '');
+  return `<fieldset id="${id}" style="min-width: 0"><legend id="${id}-text">${text}</legend>
+    ${fields}${reasonsHtml(question)}</fieldset>`;
 }
 
 // ---- From fields back to values
@@ -319,7 +357,7 @@ function buttonsOf(step, questions) {
 
 // A video that stands alone has no name of its own.
 function namesOf(step) {
-  return range(0, step.places - 1).map((place) => step.names[place] || 'Video');
+  return range(0, step.places - 1).map((place) => step.names[place] || speaker.say('video'));
 }
 
 function trialOf(step) {
@@ -332,7 +370,8 @@ function trialOf(step) {
   };
   if (buttons && single) {
     return {...pressed, type: jsPsychVideoButtonResponse, stimulus: step.addresses, width: study.width,
-            prompt: `<p>${escapeHtml(questions[0].text)}</p>`, response_allowed_while_playing: false,
+            prompt: `${headingHtml(step)}<p>${hintOf(1)}</p><p>${escapeHtml(questions[0].text)}</p>`,
+            response_allowed_while_playing: false,
             response_ends_trial: true, trial_ends_after_video: false};
   }
   if (buttons) {
@@ -341,6 +380,7 @@ function trialOf(step) {
   }
   return {
     type: jsPsychSurveyHtmlForm,
+    button_label: speaker.say('next'),
     html: `${videosHtml(step)}<fieldset id="questions" style="border: 0; min-width: 0">
       ${questions.map((question) => questionHtml(question, namesOf(step))).join('')}</fieldset>`,
     on_load: () => {
@@ -368,14 +408,16 @@ function timelineOf(steps) {
                    continue_after_error: true, max_load_time: 60000});
   }
   if (study.consent && kept.answers.length === 0) {
-    timeline.push(textPage(study.consent, escapeHtml(study.agreement || 'I agree')));
+    timeline.push(textPage(study.consent, study.agreement ? escapeHtml(study.agreement) : say('agree')));
   }
-  timeline.push(textPage(study.instructions, kept.answers.length === 0 ? 'Start' : 'Go on'));
+  timeline.push(textPage(study.instructions, say(kept.answers.length === 0 ? 'begin' : 'go_on')));
   timeline.push(...steps.map(trialOf));
   if (study.questionnaire.length > 0) {
     timeline.push({
       type: jsPsychSurveyHtmlForm,
-      html: study.questionnaire.map((question) => questionHtml(question, ['Video'])).join(''),
+      button_label: speaker.say('finish'),
+      html: `<h1 style="font-size: 1em">${say('questionnaire_title')}</h1>
+        ${study.questionnaire.map((question) => questionHtml(question, [''])).join('')}`,
       on_load: waitForSliders,
       on_finish: (data) => {
         data.questionnaire = valuesOf(study.questionnaire, data.response, 1);
@@ -402,19 +444,19 @@ async function finish() {
   await delivering;
   keep();
   const place = jsPsych.getDisplayElement() || document.body;
-  if (delivering) place.innerHTML = '<p>Storing your answers …</p>';
+  if (delivering) place.innerHTML = `<p role="status">${say('saving')}</p>`;
   await delivering;
   const text = JSON.stringify(answers(), null, 1);
   const stored = study.pipe && delivered === JSON.stringify(answers());
   const file = new Blob([text], {type: 'application/json'});
-  const lost = study.pipe && !stored ? `<p id="not-stored">Your answers could not be stored
-    ${refusedBy ? `(${escapeHtml(refusedBy)})` : ''}. Please save them, and send the file to the person who invited you.</p>` : '';
-  const link = `<p><a id="save" download="answers-${escapeHtml(kept.participant)}.json" href="${URL.createObjectURL(file)}">Save
-    my answers</a></p>`;
-  const next = study.completion_url ? `<p><a href="${escapeHtml(study.completion_url)}">Go on</a></p>` : '';
+  const lost = study.pipe && !stored ? `<p id="not-stored">${say('refused_title')}.
+    ${refusedBy ? say('refused', {error: refusedBy}) : say('finish_file')}</p>` : '';
+  const link = `<p><a id="save" download="answers-${escapeHtml(kept.participant)}.json"
+    href="${URL.createObjectURL(file)}">${say('save')}</a></p>`;
+  const next = study.completion_url ? `<p><a href="${escapeHtml(study.completion_url)}">${say('complete')}</a></p>` : '';
   const code = study.completion_code ?
-      `<p>Your completion code: <b id="code">${escapeHtml(study.completion_code)}</b></p>` : '';
-  place.innerHTML = `<h1>Thank you!</h1>${lost}${link}${code}${next}`;
+      `<p>${say('code')} <b id="code">${escapeHtml(study.completion_code)}</b></p>` : '';
+  place.innerHTML = `<h1>${say('finish_title')}</h1>${lost}${link}${code}${next}`;
 }
 
 // Participants who have finished see the end again; all others go on where they were.

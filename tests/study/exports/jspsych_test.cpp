@@ -72,6 +72,14 @@ TEST(Jspsych, IsInTheLanguageOfTheStudy) {
     sample.change("public/pages.json", [](Json& pages) { pages["language"] = "ar"; });
     sample.write(ExportForm::jspsych);
     EXPECT_THAT(read_text(sample.open("index.html")), HasSubstr("<html lang=\"ar\">"));
+    ExportedSample french({});
+    french.change("public/pages.json", [](Json& pages) {
+        pages["language"] = "fr";
+        pages["texts"] = {{"next", "Suite"}};
+    });
+    EXPECT_THAT(french.write(ExportForm::jspsych).notes, Not(::testing::Contains(HasSubstr("English"))));
+    EXPECT_EQ(data_of(french)["texts"]["next"], "Suite");
+    EXPECT_THAT(read_text(french.open("texts.js")), HasSubstr("Suivant"));
 }
 
 TEST(Jspsych, ShowsTheCompletionCodeUnlessOnlyTheServerMay) {
@@ -181,6 +189,27 @@ TEST_F(JspsychForm, LeavesSlidersOpenOrAsksForAll) {
     for (const int slider : {0, 2, 3})
         touch("input[type=range]", slider, "dispatchEvent(new Event('pointerdown'))");
     EXPECT_EQ(sent(), Json::array({nullptr, {50, 50, 50, 50}}));
+}
+
+TEST_F(JspsychForm, NamesWhatItAsksAndSaysWhyItWaits) {
+    open("pair", 1);
+    EXPECT_THAT(browser_->evaluate("document.querySelector('h1').textContent").get<std::string>(),
+                ::testing::StartsWith("Page 1 of "));
+    EXPECT_EQ(browser_->evaluate("document.querySelector('[role=status]').textContent"),
+              "You may answer now, and watch again.");
+    EXPECT_EQ(browser_->evaluate(R"([...document.querySelectorAll('[role=group]')].map((group) =>
+        group.getAttribute('aria-labelledby').split(' ').map((id) => document.getElementById(id).textContent))
+        .map(([question, video]) => `${question.length > 0} ${video}`))"),
+              Json({"true A", "true B"}));
+    EXPECT_EQ(browser_->evaluate(R"((() => {
+        const [first, second] = document.querySelectorAll('video');
+        let paused = false;
+        second.pause = () => { paused = true; };
+        first.muted = false;
+        first.dispatchEvent(new Event('play'));
+        return paused;
+    })())"),
+              true);
 }
 
 // The analysis takes what it sends.
