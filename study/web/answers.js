@@ -75,6 +75,14 @@ function keepAs(key, value) {
   }
 }
 
+// Another window of this browser has gone on with the study.
+class Overtaken extends Error {}
+
+// Grows with each answer, with the questionnaire and at the end.
+function progressOf(state) {
+  return state.sent.answers.length + Number(state.asked) + Number(state.finished);
+}
+
 // Everything that the page knows of its participant.
 class Participation {
   constructor(query) {
@@ -109,6 +117,7 @@ class Participation {
       finished: false,
     }, readKept(this.key));
     this.staticSheet = findSheet(query, participant);
+    this.known = progressOf(this.state);  // as the browser keeps it
   }
 
   get sent() {
@@ -135,10 +144,14 @@ class Participation {
     }
   }
 
+  // Throws Overtaken where another window has kept more since, which would be lost.
   keep(changes = {}) {
+    const other = readKept(this.key);
+    if (other && progressOf(other) > this.known) throw new Overtaken();
     Object.assign(this.state, changes);
     if (this.isDrawn) keepAs(kNameKey, this.sent.participant);
     this.kept = keepAs(this.key, this.state);
+    this.known = progressOf(this.state);
   }
 }
 

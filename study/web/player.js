@@ -446,8 +446,9 @@ async function begin() {
   try {
     await takePart();
   } catch (problem) {
-    if (!(problem instanceof Refused)) throw problem;
-    if (isOfNobody(problem)) leave(kWithdrawn);
+    if (problem instanceof Overtaken) location.reload();  // goes on where the other window is
+    else if (!(problem instanceof Refused)) throw problem;
+    else if (isOfNobody(problem)) leave(kWithdrawn);
     else showRefusal(problem);
   }
 }

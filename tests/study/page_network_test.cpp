@@ -197,6 +197,28 @@ TEST_F(StudyPageOnline, GoesOnWhereAnotherWindowWas) {
     EXPECT_EQ(sessions_.answers()[1]["page"], "00000000000000p0");
 }
 
+// Nothing but the browser keeps the answers: a window that was left behind must not overwrite those of the other.
+TEST_F(StudyPageOnline, KeepsTheAnswersOfTheWindowThatIsAhead) {
+    serve_files();
+    reload();
+    wait_for_section("intro");
+    evaluate("void (window.other = window.open(location.href))");
+    wait_for("other.eval(\"!byId('intro').hidden\")");
+    evaluate("other.eval(\"byId('start').click()\")");
+    wait_for("other.eval('!!trial')");
+    start();
+    answer("4");
+    wait_for("state.sent.answers.length === 1");
+    evaluate(
+        "other.eval(\"trial.stage.screens.forEach(({video}) => video.dispatchEvent(new Event('ended'))); "
+        "trial.form.press(2); byId('form').requestSubmit()\")");
+    wait_for("other.eval(\"byId('intro-title').textContent\") === 'Welcome back'");
+    EXPECT_EQ(evaluate("readKept(participation.key).sent.answers.map((answer) => answer.values)"),
+              Json::array({{{"realism", 4}}}));
+    answer("1");
+    wait_for_section("finish");
+}
+
 TEST_F(StudyPageOnline, SaysThatTheStudyIsFull) {
     serve_study();
     sessions_.refusal = "enough";
