@@ -1,0 +1,65 @@
+// What a page gives to those who see, hear or move in other ways.
+#include "tests/study/page_fixture.h"
+
+namespace chironomia::study {
+namespace {
+
+using testing::rating;
+
+// What WCAG 2.1 AA asks for and a program can see: names of controls, and the contrast of texts.
+class StudyPageAccess : public testing::PageFixture {
+  protected:
+    void look_at(const std::string& what) {
+        EXPECT_EQ(evaluate("access.nameless()"), Json::array()) << what;
+        EXPECT_EQ(evaluate("access.pale()"), Json::array()) << what;
+    }
+
+    void open_with_eyes() {
+        open();
+        evaluate(read_text(testing::source_dir() / "tests/study/access.js"));
+    }
+};
+
+TEST_F(StudyPageAccess, IsThereInEverySection) {
+    study_["consent"] = {{"text", "You may stop at any time."}};
+    study_["questions"] = {testing::preference_with_reasons(), rating("natural"), rating("fluent")};
+    for (Json& page : study_["pages"]) page["passes"][0]["questions"] = {0, 1, 2};
+    study_["questionnaire"] = Json::parse(
+        R"([{"id": "age", "kind": "number", "text": "Age", "least": 18, "most": 99, "optional": true},
+            {"id": "note", "kind": "text", "text": "Notes", "optional": true}])");
+    open_with_eyes();
+    look_at("consent");
+    click("#agree");
+    wait_for_section("intro");
+    look_at("intro");
+    start();
+    look_at("a page");
+    EXPECT_EQ(evaluate("[...document.querySelectorAll('.controls progress')].map((bar) => bar.ariaLabel)"),
+              Json({"Video A: How far the video has played", "Video B: How far the video has played"}));
+    EXPECT_EQ(evaluate("byId('shortcuts').getAttribute('aria-describedby')"), "keys-text");
+    end_videos();
+    look_at("a watched page");
+    evaluate("byId('lost').showModal()");
+    look_at("the lost connection");
+    evaluate("byId('lost').close(); void fillQuestionnaireIn()");
+    look_at("questionnaire");
+    evaluate("state.finished = true; showEnd()");
+    look_at("end");
+}
+
+TEST_F(StudyPageAccess, IsThereForVideosOneAtATime) {
+    study_ = study_of("parallel", 4,
+                      Json::parse(R"([{"id": "quality", "kind": "slider", "text": "How good?", "least": 0,
+                                       "most": 100, "labels": ["good", "bad"], "each": true},
+                                      {"id": "best", "kind": "rank", "text": "Which is best?", "of_videos": true},
+                                      {"id": "real", "kind": "rating", "text": "How real?", "points": 5, "each": true}])"));
+    open_with_eyes();
+    start();
+    look_at("a page");
+    end_videos();
+    for (const char* key : {"2", "1"}) browser_->press(key);
+    look_at("a watched page");
+}
+
+}  // namespace
+}  // namespace chironomia::study
