@@ -322,8 +322,10 @@ function showEnd() {
     };
     byId('answer-text').value = participation.text;
   }
-  showCompletion((online ? state.completion : study.completion) || {});
+  const completion = (online ? state.completion : study.completion) || {};
+  showCompletion(completion);
   show('finish');
+  if (online && completion.url) leaveFor(completion.url);
 }
 
 function showCompletion({url, code}) {
@@ -338,10 +340,10 @@ function showCompletion({url, code}) {
   });
   byId('complete').hidden = !url;
   byId('complete').href = url || '';
-  if (online && url) leaveFor(url);
 }
 
-// With a server nothing is left to do, so the page goes on by itself unless the participant stays.
+// With a server nothing is left to do, so the page goes on by itself unless the participant stays. Readers announce the
+// first count alone, and none passes while a dialog is open.
 async function leaveFor(url) {
   let staying = false;
   byId('stay').hidden = false;
@@ -350,9 +352,11 @@ async function leaveFor(url) {
     byId('stay').hidden = true;
     byId('redirect').textContent = '';
   };
-  for (let left = 10; left > 0 && !staying; --left) {
+  for (let left = 10; left > 0 && !staying;) {
     byId('redirect').textContent = say('redirect', {n: left});
     await wait(1);
+    byId('redirect').setAttribute('aria-live', 'off');
+    if (!document.querySelector('dialog[open]')) --left;
   }
   if (!staying) location.assign(url);
 }
@@ -360,6 +364,7 @@ async function leaveFor(url) {
 // ---- What is stored, and withdrawing
 
 async function showData() {
+  if (trial) trial.stage.pause();
   let stored = null;
   let text = 'data_lost';
   try {

@@ -296,13 +296,21 @@ let narrowAllowed = false;
 function watchWidth() {
   const least = oneAtATime() ? kLeastWidths.single : kLeastWidths[study.layout];
   const narrow = innerWidth < least && !narrowAllowed && byId('finish').hidden;
-  if (narrow && trial) trial.stage.screens.forEach((screen) => screen.video.pause());
+  if (narrow && trial) trial.stage.pause();
   if (narrow && !byId('narrow').open) byId('narrow').showModal();
   if (!narrow && byId('narrow').open) byId('narrow').close();
 }
 
+// Nobody sees a video in a page that is hidden.
+function watchVisibility() {
+  if (!trial) return;
+  trial.note(document.hidden ? 'hidden' : 'visible');
+  if (document.hidden) trial.stage.pause();
+}
+
 function watchWindow() {
   document.addEventListener('keydown', pressKey);
+  document.addEventListener('visibilitychange', watchVisibility);
   addEventListener('resize', () => {
     watchWidth();
     fit();

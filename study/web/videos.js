@@ -345,12 +345,17 @@ class Stage {
   // The space bar: pauses what plays, or plays what has not been watched.
   toggle() {
     const playing = this.screens.filter((screen) => !screen.video.paused);
-    if (playing.length > 0) {
-      this.queue = [];
-      for (const screen of playing) screen.video.pause();
-      return;
+    if (playing.length > 0) this.pause();
+    else (this.screens.find((screen) => !screen.watched) || this.visible || this.screens[0]).toggle();
+  }
+
+  // Nothing plays, and nothing begins by itself.
+  pause() {
+    this.queue = [];
+    for (const screen of this.screens) {
+      screen.wanted = false;
+      screen.video.pause();
     }
-    (this.screens.find((screen) => !screen.watched) || this.visible || this.screens[0]).toggle();
   }
 
   ended() {
@@ -386,11 +391,7 @@ class Stage {
   }
 
   close() {
-    this.queue = [];
-    for (const screen of this.screens) {
-      screen.wanted = false;
-      screen.video.pause();
-      screen.load.removeEventListener('change', screen.onLoad);
-    }
+    this.pause();
+    for (const screen of this.screens) screen.load.removeEventListener('change', screen.onLoad);
   }
 }

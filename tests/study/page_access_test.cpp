@@ -61,5 +61,24 @@ TEST_F(StudyPageAccess, IsThereForVideosOneAtATime) {
     look_at("a watched page");
 }
 
+TEST_F(StudyPageAccess, StopsVideosThatNobodySees) {
+    open();
+    start();
+    evaluate("trial.stage.screens[0].video.loop = true");
+    click(".play");
+    wait_for("!document.querySelector('video').paused");
+    click("#your-data");
+    EXPECT_EQ(evaluate("document.querySelector('video').paused"), true);
+    wait_for("byId('data').open");
+    click("#data-close");
+    click(".play");
+    wait_for("!document.querySelector('video').paused");
+    evaluate(
+        "Object.defineProperty(document, 'hidden', {value: true}); "
+        "document.dispatchEvent(new Event('visibilitychange'))");
+    EXPECT_EQ(evaluate("document.querySelector('video').paused"), true);
+    EXPECT_EQ(evaluate("trial.events.filter(([, what]) => what === 'hidden').length"), 1);
+}
+
 }  // namespace
 }  // namespace chironomia::study

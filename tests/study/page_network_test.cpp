@@ -134,6 +134,12 @@ TEST_F(StudyPageOnline, SendsEveryAnswerBeforeItGoesOn) {
     EXPECT_EQ(evaluate("document.getElementById('file').hidden"), true);
     EXPECT_EQ(text_of("code"), "XYZ");
     wait_for("document.getElementById('redirect').textContent.includes('seconds')");
+    wait_for("byId('redirect').getAttribute('aria-live') === 'off'");  // after the first count
+    evaluate("byId('data').showModal()");
+    const std::string left = text_of("redirect");
+    evaluate("wait(1.5)");
+    EXPECT_EQ(text_of("redirect"), left) << "halted";
+    evaluate("byId('data').close()");
     click("#stay");
     EXPECT_EQ(text_of("redirect"), "");
     // Who comes back after the end sees the end.
