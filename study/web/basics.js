@@ -45,6 +45,10 @@ function show(id) {
   for (const section of document.querySelectorAll('main > section')) section.hidden = section.id !== id;
   if (id !== 'trial') byId('progress').hidden = true;
   document.body.classList.toggle('watching', id === 'trial');
-  byId(id).querySelector('h2').focus({preventScroll: true});
+  focusHeading();
   scrollTo(0, 0);
+}
+
+function focusHeading() {
+  document.querySelector('main > section:not([hidden]) h2')?.focus({preventScroll: true});
 }

@@ -123,6 +123,7 @@ async function checkSound() {
     });
     refresh();
     byId('sound-problem').textContent = say('sound_wrong');
+    byId('tones').focus();
     return false;
   };
   await submitted(byId('sound-form'), isRight);
@@ -384,6 +385,7 @@ async function showData() {
 
 function askWhetherToWithdraw() {
   byId('data-sure').textContent = say('withdraw_sure');
+  byId('data-close').focus();
   byId('withdraw').hidden = true;
   byId('withdraw-sure').hidden = false;
 }

@@ -218,13 +218,12 @@ function fit() {
   if (!trial) return;
   const root = document.documentElement.style;
   root.setProperty('--ratio', String(study.width / study.height));
-  const forms = [trial.form, ...otherForms(trial.step)];
-  const below = roomOf('below', forms);
-  const beside = innerWidth < kColumns ? {wide: 0, height: 0, fits: false} : roomOf('beside', forms);
+  const others = otherForms(trial.step);
+  const below = roomOf('below', others);
+  const beside = innerWidth < kColumns ? {wide: 0, height: 0, fits: false} : roomOf('beside', others);
   const better = beside.fits ? beside.height > below.height : below.height < kLeastHeight && beside.height > kLeastHeight;
   const {wide, height} = better ? beside : below;
   arrange(better ? 'beside' : 'below', Math.floor(Math.min(wide, Math.max(kLeastHeight, height))));
-  byId('questions').replaceChildren(...trial.form.elements);
   byId('caption').textContent = trial.step.page.caption;
   byId('caption').hidden = longestCaption() === '';
 }
@@ -250,8 +249,9 @@ function longestCaption() {
 }
 
 // How high videos can be with the questions on this side [px], as the width alone allows it, and in the window as well, and
-// whether the questions fit into the window.
-function roomOf(side, forms) {
+// whether the questions fit into the window. The page's own form stays where it is, because the focus is in it: the others
+// take its room for a moment.
+function roomOf(side, others) {
   arrange(side, 0);
   byId('caption').hidden = longestCaption() === '';
   byId('caption').textContent = longestCaption();
@@ -263,12 +263,21 @@ function roomOf(side, forms) {
   const wide = (byId('watch').clientWidth - gap * (columns - 1)) / columns / (study.width / study.height);
   let height = wide;
   let fits = true;
-  for (const form of forms) {
-    byId('questions').replaceChildren(...form.elements);
+  const measure = () => {
     const beside = side === 'beside';
     if (beside && byId('form').offsetHeight > free) fits = false;
     height = Math.min(height, free - byId(beside ? 'watch' : 'trial').offsetHeight);
+  };
+  measure();
+  byId('questions').classList.add('aside');
+  for (const form of others) {
+    const spare = element('fieldset', {className: 'questions'});
+    spare.append(...form.elements);
+    byId('questions').after(spare);
+    measure();
+    spare.remove();
   }
+  byId('questions').classList.remove('aside');
   return {wide, height, fits};
 }
 
@@ -319,7 +328,12 @@ function watchWindow() {
     narrowAllowed = true;
     byId('narrow').close();
   });
-  byId('narrow').addEventListener('cancel', (event) => event.preventDefault());
+  byId('narrow').addEventListener('cancel', () => {
+    narrowAllowed = true;
+  });
+  byId('narrow').addEventListener('close', () => {
+    if (document.activeElement === document.body) focusHeading();
+  });
   byId('all').addEventListener('click', () => trial && trial.stage.playAll());
   byId('questions').addEventListener('change', (event) => trial && trial.noteAnswer(event.target));
   watchWidth();

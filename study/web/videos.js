@@ -124,7 +124,7 @@ class Screen {
     this.bar = element('progress', {max: 1, value: 0});
     this.bar.setAttribute('aria-label', [name && say('video_named', {name}), say('video_progress')].filter(Boolean).join(': '));
     this.mark = element('span', {className: 'watched'});
-    this.message = element('div', {className: 'message', hidden: true});
+    this.message = element('div', {className: 'message', hidden: true, tabIndex: -1});
     this.figure = this.build();
     this.listen();
     this.attach();
@@ -187,8 +187,9 @@ class Screen {
     this.refresh();
   }
 
+  // The button that was pressed goes away: the focus waits in the message, until the video is there.
   retry() {
-    this.message.hidden = true;
+    this.message.focus();
     if (this.broken) {
       this.broken = false;
       this.load.removeEventListener('change', this.onLoad);
@@ -241,8 +242,10 @@ class Screen {
 
   showMessage() {
     const failed = this.load.failed || this.broken;
-    this.message.hidden = this.load.ready && !failed;
-    if (this.message.hidden) return;
+    const hidden = this.load.ready && !failed;
+    if (hidden && this.message.contains(document.activeElement)) this.button.focus();
+    this.message.hidden = hidden;
+    if (hidden) return;
     if (failed) {
       if (this.message.querySelector('button')) return;
       const again = element('button', {type: 'button'}, say('try_again'));

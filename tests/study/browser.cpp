@@ -123,8 +123,8 @@ bool Browser::wait_for(const std::string& script) {
 }
 
 void Browser::press(const std::string& key) {
-    const std::map<std::string, int> codes = {
-        {"Enter", 13}, {"Tab", 9}, {" ", 32}, {"ArrowRight", 39}, {"ArrowLeft", 37}};
+    const std::map<std::string, int> codes = {{"Enter", 13},      {"Tab", 9},        {" ", 32},
+                                              {"ArrowRight", 39}, {"ArrowLeft", 37}, {"Escape", 27}};
     const auto code = codes.find(key);
     for (const char* type : {"keyDown", "keyUp"}) {
         Json event = {{"type", type}, {"key", key}};

@@ -61,6 +61,25 @@ TEST_F(StudyPageAccess, IsThereForVideosOneAtATime) {
     look_at("a watched page");
 }
 
+TEST_F(StudyPageAccess, KeepsTheFocusWhereItIsWhenTheWindowChanges) {
+    study_ = study_of("single", 1, {{{"id", "words"}, {"kind", "text"}, {"text", "?"}}, rating("natural")});
+    study_["pages"][0]["passes"][0]["questions"] = {0};
+    study_["pages"][1]["passes"][0]["questions"] = {0, 1};  // another form is measured
+    open();
+    start();
+    end_videos();
+    evaluate("document.querySelector('textarea').focus()");
+    for (const int width : {1100, 900, 1280}) {
+        browser_->press("2");
+        browser_->resize(width, 700);
+        wait_for(format("innerWidth === {} && new Promise((done) => requestAnimationFrame(() => done(true)))",
+                        width));
+        EXPECT_EQ(evaluate("document.activeElement.tagName"), "TEXTAREA") << width;
+    }
+    EXPECT_EQ(values(), Json({{"words", "222"}}));
+    EXPECT_EQ(evaluate("document.querySelectorAll('.questions, .aside').length"), 1);
+}
+
 TEST_F(StudyPageAccess, StopsVideosThatNobodySees) {
     open();
     start();

@@ -333,6 +333,7 @@ TEST_F(StudyPage, GoesOnOnlyWhenTheTonesWereCounted) {
     click(format("#sound-choices label:nth-child({}) input", played == 0 ? 2 : 1));
     click("#sound-check");
     EXPECT_THAT(text_of("sound-problem"), HasSubstr("That is not how many there were."));
+    EXPECT_EQ(evaluate("document.activeElement.id"), "tones");
     EXPECT_EQ(evaluate("document.querySelectorAll('#sound-choices input:checked').length"), 0);
     click(format("#sound-choices label:nth-child({}) input", played.get<int>() + 1));
     EXPECT_TRUE(cannot_check()) << "the other file was not played yet";
@@ -461,8 +462,9 @@ TEST_F(StudyPage, SaysWhenTheWindowIsTooNarrow) {
     wait_for("!document.getElementById('narrow').open");
     browser_->resize(600, 800);
     wait_for("document.getElementById('narrow').open");
-    click("#narrow-anyway");
-    EXPECT_EQ(evaluate("document.getElementById('narrow').open"), false);
+    browser_->press("Escape");
+    wait_for("!document.getElementById('narrow').open");
+    EXPECT_EQ(evaluate("document.activeElement.id"), "trial-title");
     EXPECT_EQ(evaluate("document.documentElement.scrollWidth <= innerWidth"), true);
 }
 
@@ -658,6 +660,7 @@ TEST_F(StudyPage, DeletesWhatIsOnThisDeviceAlone) {
     EXPECT_THAT(text_of("data-text"), HasSubstr("on this device alone"));
     EXPECT_EQ(Json::parse(text_of("data-stored"))["answers"].size(), 1u);
     click("#withdraw");
+    EXPECT_EQ(evaluate("document.activeElement.id"), "data-close");
     click_and_reload("#withdraw-sure");
     wait_for("document.getElementById('message-title').textContent === 'You have withdrawn'");
     EXPECT_THAT(text_of("message-text"), HasSubstr("deleted from this device"));
