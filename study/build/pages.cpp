@@ -12,8 +12,9 @@ std::string read_player_file(const std::string& name) {
     return read_text(find_asset("study/web/" + name));
 }
 
-void replace_once(std::string& text, std::string_view mark, std::string_view with) {
-    text.replace(text.find(mark), mark.size(), with);
+void replace_all(std::string& text, std::string_view mark, std::string_view with) {
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + with.size()))
+        text.replace(at, mark.size(), with);
 }
 
 // JSON inside a script element: nothing in it may look like the element's end.
@@ -96,8 +97,9 @@ StudyPages pages_of_study(const StudyDraft& draft, const std::vector<double>& se
 
 std::string make_index_page(const Json& pages) {
     std::string page = read_player_file("index.html");
-    replace_once(page, "{{title}}", escape_html(pages.at("title").get<std::string>()));
-    replace_once(page, "{{pages}}", escape_script(pages.dump()));
+    replace_all(page, "{{title}}", escape_html(pages.at("title").get<std::string>()));
+    replace_all(page, "{{language}}", escape_html(pages.at("language").get<std::string>()));
+    replace_all(page, "{{pages}}", escape_script(pages.dump()));
     return page;
 }
 

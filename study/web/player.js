@@ -56,7 +56,8 @@ async function introduce() {
   byId('instructions').textContent = study.instructions;
   const needs = [`${say('pages', {n: pages})} ${say('minutes', {n: minutes()})}`];
   if (study.sound) needs.push(say('need_sound'));
-  needs.push(say('need_screen'), say('need_resume'));
+  needs.push(say('need_screen'));
+  if (participation.kept) needs.push(say('need_resume'));
   byId('requirements').replaceChildren(...needs.map((text) => element('li', {}, text)));
   byId('intro-title').textContent = say(state.introduced ? 'welcome_back' : 'intro_title');
   byId('start').textContent = say(state.introduced ? 'go_on' : 'begin');
@@ -245,7 +246,7 @@ async function fillQuestionnaireIn() {
   const form = new QuestionForm(study.questionnaire, {changed: () => refresh()});
   const refresh = () => {
     byId('send').disabled = !form.complete;
-    byId('questionnaire-problem').textContent = form.problem;
+    byId('questionnaire-problem').textContent = form.problem || (form.open > 0 ? say('open', {n: form.open}) : '');
   };
   byId('questionnaire-fields').replaceChildren(...form.elements);
   refresh();
@@ -416,12 +417,12 @@ function showsWithdrawal() {
   const {hash} = location;
   if (hash !== kWithdrawn && hash !== kWithdrawnDevice) return false;
   history.replaceState(null, '', location.pathname + location.search);  // a reload begins anew
-  byId('your-data').hidden = true;
   showMessage({title: say('withdrawn_title'), text: say(hash === kWithdrawn ? 'withdrawn' : 'withdrawn_device')});
   return true;
 }
 
 function offerData() {
+  byId('your-data').hidden = false;
   byId('your-data').addEventListener('click', showData);
   byId('withdraw').addEventListener('click', askWhetherToWithdraw);
   byId('withdraw-sure').addEventListener('click', withdraw);
@@ -434,7 +435,6 @@ function speak() {
   const rightToLeft = ['ar', 'fa', 'he', 'ur'].includes(study.language.split('-')[0].toLowerCase());
   document.documentElement.lang = study.language;
   document.documentElement.dir = rightToLeft ? 'rtl' : 'ltr';
-  byId('title').textContent = study.title;
   byId('shortcuts').setAttribute('aria-label', say('keys_label'));
   for (const one of document.querySelectorAll('[data-say]')) one.textContent = say(one.dataset.say);
   for (const one of document.querySelectorAll('[data-say-label]')) one.setAttribute('aria-label', say(one.dataset.sayLabel));

@@ -56,7 +56,7 @@ function announceChange(changed) {
 }
 
 function questionText(question, tag = 'span') {
-  const text = element(tag, {className: 'question'}, question.text);
+  const text = element(tag, {className: 'question', dir: 'auto'}, question.text);
   if (question.optional) text.append(' ', element('span', {className: 'optional'}, `(${say('optional')})`));
   return text;
 }
@@ -128,7 +128,7 @@ function makeCards(question, names, changed) {
   row.style.setProperty('--options', String(columnsOf(radios.options.length)));
   radios.inputs.forEach((input, i) => {
     const label = element('label');
-    label.append(input, element('span', {}, radios.options[i].text));
+    label.append(input, element('span', {dir: 'auto'}, radios.options[i].text));
     row.append(label);
   });
   field.append(row);
@@ -180,13 +180,12 @@ function makeMatrix(lines, scale, names, changed, place) {
   if (scale.kind !== 'rating' || hasLabels(scale)) grid.append(headOf(scale, options));
   const words = wordsOf(scale, options);
   grid.classList.toggle('wordy', words.length > 0);
-  return {grid, radios: lines.map(({text, isPlace}) => {
+  return {grid, radios: lines.map(({text, isPlace, name}) => {
     const radios = new Radios(options, changed);
-    const id = newId('line');
     const line = element('div', {className: 'line'});
     line.setAttribute('role', 'radiogroup');
-    line.setAttribute('aria-labelledby', id);
-    const head = element('div', {className: 'text', id});
+    line.setAttribute('aria-label', name);
+    const head = element('div', {className: 'text'});
     head.append(text);
     line.append(head);
     if (isPlace !== undefined) place(line, isPlace);
@@ -195,7 +194,7 @@ function makeMatrix(lines, scale, names, changed, place) {
       input.setAttribute('aria-label', spokenOption(scale, options, i));
       label.append(input);
       if (scale.kind === 'rating') label.append(element('span', {}, options[i].text));
-      if (words[i]) label.append(element('span', {className: 'word'}, words[i]));
+      if (words[i]) label.append(element('span', {className: 'word', dir: 'auto'}, words[i]));
       line.append(label);
     });
     grid.append(line);
@@ -224,15 +223,18 @@ function headOf(scale, options) {
   head.setAttribute('aria-hidden', 'true');
   head.append(element('span'));
   if (scale.kind !== 'rating') {
-    head.append(...options.map((option) => element('span', {}, option.text)));
+    head.append(...options.map((option) => element('span', {dir: 'auto'}, option.text)));
     return head;
   }
   const row = element('div', {className: 'ends'});
-  const labelled = Object.entries(scale.labels).sort(([a], [b]) => Number(a) - Number(b));
-  for (const [point, text] of labelled) {
-    const n = Number(point);
-    const label = element('span', {}, text);
-    label.style.gridColumn = String(n);
+  const labelled = Object.entries(scale.labels).map(([n, text]) => [Number(n), text]).sort(([a], [b]) => a - b);
+  const gap = Math.min(options.length, ...labelled.slice(1).map(([n], i) => n - labelled[i][0]));
+  const reach = Math.floor((gap - 1) / 2);  // columns to each side that a label may take; those at the ends take the rest
+  for (const [n, text] of labelled) {
+    const label = element('span', {dir: 'auto'}, text);
+    const from = n === options.length ? n - (gap - reach) + 1 : n - reach;
+    const to = n === 1 ? gap - reach : n + reach;
+    label.style.gridColumn = `${Math.max(1, from)} / ${Math.min(options.length, to) + 1}`;
     label.className = n === 1 ? 'first' : n === options.length ? 'last' : '';
     row.append(label);
   }
@@ -245,7 +247,7 @@ function headOf(scale, options) {
 function makeGroup(questions, names, changed) {
   const scale = questions[0];
   if (questions.length === 1 && scale.kind !== 'rating') return [makeCards(scale, names, changed)];
-  const lines = questions.map((question) => ({text: questionText(question)}));
+  const lines = questions.map((question) => questionText(question)).map((text) => ({text, name: text.textContent}));
   const {grid, radios} = makeMatrix(lines, scale, names, changed);
   grid.classList.toggle('alone', questions.length === 1);
   return questions.map((question, i) => {
@@ -271,7 +273,7 @@ function offerToClear({question, element: field, lines}, changed) {
 // One question of every video by itself.
 function makeEach(question, names, changed, place) {
   const field = fieldsetOf(question, 'each');
-  const lines = names.map((name, i) => ({text: name, isPlace: i}));
+  const lines = names.map((name, i) => ({text: name, isPlace: i, name: `${question.text} ${name}`}));
   const {grid, radios} = makeMatrix(lines, question, names, changed, place);
   grid.classList.add('videos');
   field.append(grid);
@@ -289,11 +291,13 @@ function arrayOf(values) {
 class Slider {
   constructor(question, label, changed) {
     const {least, most} = question;
+    this.labels = [...question.labels || []].reverse();  // they are listed from `most` down to `least`
     this.middle = String(Math.round((least + most) / 2));
     this.changed = changed;
     this.input = element('input', {type: 'range', min: least, max: most, step: 1});
     this.input.setAttribute('aria-label', label);
-    this.output = element('output');
+    this.number = element('span', {className: 'number'});
+    this.number.setAttribute('aria-hidden', 'true');
     this.clear();
     for (const type of ['input', 'change', 'click']) this.input.addEventListener(type, () => this.touch());
     this.input.addEventListener('keydown', (event) => {
@@ -307,15 +311,22 @@ class Slider {
     this.input.value = this.middle;
     this.input.classList.add('untouched');
     this.input.setAttribute('aria-valuetext', say('not_set'));
-    this.output.textContent = '–';
+    this.number.textContent = '–';
   }
 
   touch() {
     this.touched = true;
     this.input.classList.remove('untouched');
-    this.input.removeAttribute('aria-valuetext');
-    this.output.textContent = this.input.value;
+    this.input.setAttribute('aria-valuetext', this.spoken);
+    this.number.textContent = this.input.value;
     this.changed();
+  }
+
+  // The number, and the label that is nearest; two labels alone name the ends.
+  get spoken() {
+    const {value, min, max} = this.input;
+    const at = (value - min) / (max - min) * (this.labels.length - 1);
+    return this.labels.length > 2 ? `${value}, ${this.labels[Math.round(at)]}` : value;
   }
 
   get value() {
@@ -335,17 +346,17 @@ class Slider {
   }
 }
 
-// `labels` are listed from `most` down to `least`; the slider goes from left to right.
+// `labels` stand from left to right.
 function ticksOf(labels) {
-  const ticks = element('div', {className: 'ticks'});
+  const ticks = element('div', {className: 'ticks', id: newId('ticks')});
   ticks.setAttribute('aria-hidden', 'true');
   ticks.style.setProperty('--columns-of-ticks', String(4 * Math.max(1, labels.length - 1)));
   ticks.style.setProperty('--ends', labels.length === 3 ? '4' : '5');
   ticks.classList.toggle('two', labels.length <= 2);
-  [...labels].reverse().forEach((text, i) => {
-    const tick = element('span', {className: 'tick'}, text);
+  labels.forEach((text, i) => {
+    const tick = element('span', {className: 'tick', dir: 'auto'}, text);
     tick.style.setProperty('--i', String(i));
-    ticks.append(tick);
+    ticks.append(tick, ' ');
   });
   return ticks;
 }
@@ -359,20 +370,22 @@ function makeSliders(question, names, changed, place) {
     const line = element('div', {className: 'line'});
     if (name) line.append(element('div', {className: 'text'}, name));
     if (question.each) place(line, i);
-    line.append(slider.input, slider.output);
+    line.append(slider.input, slider.number);
     slider.element = line;
     return slider;
   });
-  const labels = question.labels || [];
+  const [{labels}] = lines;
   if (labels.length > 0) {
-    const ticks = element('div', {className: 'line'});
-    if (question.each) ticks.append(element('div', {className: 'text'}));
-    ticks.append(ticksOf(labels), element('output'));
-    field.append(ticks);
+    const line = element('div', {className: 'line'});
+    const ticks = ticksOf(labels);
+    if (question.each) line.append(element('div', {className: 'text'}));
+    line.append(ticks, element('span', {className: 'number'}));
+    field.append(line);
+    for (const {input} of lines) input.setAttribute('aria-describedby', ticks.id);
   }
   field.append(...lines.map((line) => line.element));
-  const values = () => lines.map((line) => line.value);
-  const made = {question, element: field, lines, value: () => (question.each ? arrayOf(values()) : lines[0].value)};
+  const value = () => (question.each ? arrayOf(lines.map((line) => line.value)) : lines[0].value);
+  const made = {question, element: field, lines, value};
   made.refresh = offerToClear(made, changed);
   return made;
 }
@@ -472,12 +485,11 @@ function makeNumber(question, names, changed) {
   const {least, most} = question;
   const input = element('input', {type: 'number', step: 'any', inputMode: 'decimal', autocomplete: 'off'});
   if ([least, most].every((limit) => typeof limit === 'number')) input.placeholder = `${least}–${most}`;
+  input.min = least ?? -kFarthestNumber;
+  input.max = most ?? kFarthestNumber;
   input.addEventListener('input', changed);
-  const from = least ?? -kFarthestNumber;
-  const to = most ?? kFarthestNumber;
-  const limits = say('number_between', {least: from, most: to});
-  const fits = (number) => from <= number && number <= to;
-  const wrong = () => input.validity.badInput || (input.value !== '' && !fits(Number(input.value)));
+  const limits = say('number_between', {least: input.min, most: input.max});
+  const wrong = () => !input.validity.valid;
   const message = element('span', {className: 'wrong', id: newId('wrong')});
   input.setAttribute('aria-describedby', message.id);
   const refresh = () => {

@@ -218,14 +218,28 @@ function fit() {
   if (!trial) return;
   const root = document.documentElement.style;
   root.setProperty('--ratio', String(study.width / study.height));
+  placeStatus();
   const others = otherForms(trial.step);
   const below = roomOf('below', others);
   const beside = innerWidth < kColumns ? {wide: 0, height: 0, fits: false} : roomOf('beside', others);
   const better = beside.fits ? beside.height > below.height : below.height < kLeastHeight && beside.height > kLeastHeight;
   const {wide, height} = better ? beside : below;
-  arrange(better ? 'beside' : 'below', Math.floor(Math.min(wide, Math.max(kLeastHeight, height))));
+  const arrangeWithin = (most) => {
+    arrange(better ? 'beside' : 'below', Math.floor(Math.min(most, Math.max(kLeastHeight, height))));
+  };
+  arrangeWithin(wide);
+  if (heightOfColumn() < wide) arrangeWithin(heightOfColumn());  // a scrollbar has come
   byId('caption').textContent = trial.step.page.caption;
   byId('caption').hidden = longestCaption() === '';
+}
+
+// In a narrow window the videos are out of sight where Next is.
+function placeStatus() {
+  const status = byId('status');
+  const place = document.querySelector(matchMedia('(max-width: 46rem)').matches ? '.next' : '.row');
+  if (status.parentElement === place) return;
+  if (place.matches('.next')) byId('skip').before(status);
+  else place.append(status);
 }
 
 function arrange(side, height) {
@@ -248,6 +262,13 @@ function longestCaption() {
   return study.pages.reduce((longest, page) => (page.caption.length > longest.length ? page.caption : longest), '');
 }
 
+// How high a video is that is as wide as its column [px].
+function heightOfColumn() {
+  const columns = Number(byId('stage').style.getPropertyValue('--columns'));
+  const gap = parseFloat(getComputedStyle(byId('stage')).columnGap) || 0;
+  return (byId('watch').clientWidth - gap * (columns - 1)) / columns / (study.width / study.height);
+}
+
 // How high videos can be with the questions on this side [px], as the width alone allows it, and in the window as well, and
 // whether the questions fit into the window. The page's own form stays where it is, because the focus is in it: the others
 // take its room for a moment.
@@ -258,9 +279,7 @@ function roomOf(side, others) {
   const padding = getComputedStyle(byId('main'));
   const free = innerHeight - document.querySelector('header').offsetHeight - parseFloat(padding.paddingTop) -
     parseFloat(padding.paddingBottom);
-  const columns = Number(byId('stage').style.getPropertyValue('--columns'));
-  const gap = parseFloat(getComputedStyle(byId('stage')).columnGap) || 0;
-  const wide = (byId('watch').clientWidth - gap * (columns - 1)) / columns / (study.width / study.height);
+  const wide = heightOfColumn();
   let height = wide;
   let fits = true;
   const measure = () => {

@@ -248,9 +248,11 @@ class Screen {
     if (hidden) return;
     if (failed) {
       if (this.message.querySelector('button')) return;
+      const words = element('p', {}, say(this.broken ? 'playing_failed' : 'loading_failed'));
+      words.setAttribute('role', 'alert');
       const again = element('button', {type: 'button'}, say('try_again'));
       again.addEventListener('click', () => this.retry());
-      this.message.replaceChildren(element('p', {}, say(this.broken ? 'playing_failed' : 'loading_failed')), again);
+      this.message.replaceChildren(words, again);
       return;
     }
     const percent = Math.floor(this.load.share * 100);
@@ -372,7 +374,7 @@ class Stage {
     this.tabs.forEach((tab, place) => {
       const screen = this.screens[place];
       tab.textContent = this.names[place];
-      if (screen.watched) tab.append(element('span', {className: 'tick'}, '✓'));
+      if (screen.watched) tab.append(element('span', {className: 'done'}, '✓'));
       tab.disabled = this.locked(screen);
       tab.setAttribute('aria-pressed', String(screen === this.visible));
       const parts = [say('play_video', {name: this.names[place]}), screen.watched ? say('watched') : ''];

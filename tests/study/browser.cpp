@@ -140,4 +140,12 @@ void Browser::resize(int width, int height) {
          {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
 }
 
+void Browser::force_colors() {
+    call("Emulation.setEmulatedMedia", {{"features", {{{"name", "forced-colors"}, {"value", "active"}}}}});
+}
+
+std::string Browser::picture() {
+    return call("Page.captureScreenshot", Json::object())["data"];
+}
+
 }  // namespace chironomia::testing

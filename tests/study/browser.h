@@ -36,6 +36,12 @@ class Browser {
     // The size of the page [px].
     void resize(int width, int height);
 
+    // As in the high-contrast mode of a system: few colors, which the reader has chosen.
+    void force_colors();
+
+    // What the page shows, as a PNG in base64.
+    std::string picture();
+
   private:
     // The whole answer, also of a call that failed.
     Json exchange(const std::string& method, const Json& parameters);

@@ -299,6 +299,7 @@ TEST_F(StudyPageOnline, LoadsAVideoAgainThatCouldNotBeLoaded) {
     wait_for("document.querySelectorAll('.message button').length === 2");
     EXPECT_THAT(evaluate("document.querySelector('.message').textContent").get<std::string>(),
                 HasSubstr("This video could not be loaded. Please check your connection."));
+    EXPECT_EQ(evaluate("document.querySelectorAll('.message [role=alert]').length"), 2);
     server_->miss("");
     evaluate("document.querySelectorAll('.message button').forEach((button) => button.click())");
     wait_for("document.querySelectorAll('.message:not([hidden])').length === 0");

@@ -193,7 +193,7 @@ TEST_F(StudyPageQuestions, OfAllVideosAreAnsweredForAllOrForNone) {
     click("[data-question=each] button.plain");
     EXPECT_TRUE(may_go_on());
     EXPECT_EQ(values(), Json({{"quality", nullptr}, {"each", nullptr}}));
-    EXPECT_EQ(evaluate("document.querySelector('[data-question=quality] output').textContent"), "–");
+    EXPECT_EQ(evaluate("document.querySelector('[data-question=quality] .number').textContent"), "–");
     for (int place = 0; place < 3; ++place) move(place, 10 * place);
     for (int place = 0; place < 3; ++place) rate(place, place + 1);
     EXPECT_TRUE(may_go_on());

@@ -11,6 +11,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::preference;
 using testing::rating;
 using testing::ShownPage;
@@ -30,6 +31,11 @@ TEST_F(StudyPage, LetsAParticipantWatchAnswerAndSave) {
     open("?p=1");
     EXPECT_EQ(text_of("title"), "Two ways to move");
     EXPECT_THAT(text_of("requirements"), HasSubstr("There are 2 pages. This takes about one minute."));
+    EXPECT_THAT(text_of("requirements"), HasSubstr("If you must stop"));
+    evaluate("participation.kept = false, void introduce()");
+    EXPECT_THAT(text_of("requirements"), Not(HasSubstr("If you must stop"))) << "nothing is kept";
+    evaluate("participation.kept = true");
+    reload("?p=1");
     start();
     EXPECT_EQ(text_of("progress-text"), "Page 1 of 2");
 
@@ -391,6 +397,9 @@ TEST_F(StudyPage, IsLaidOutFromRightToLeftHoweverTheLanguageIsSpelled) {
     study_["language"] = "AR-eg";
     open();
     EXPECT_EQ(evaluate("document.documentElement.dir"), "rtl");
+    start();
+    EXPECT_EQ(evaluate("document.querySelector('#questions legend').dir"), "auto");
+    EXPECT_THAT(read_text(folder_ / "public/index.html"), HasSubstr("<html lang=\"AR-eg\">"));
 }
 
 TEST_F(StudyPage, SpreadsNamesOverTheSheets) {
