@@ -10,8 +10,8 @@ namespace {
 
 constexpr float kShortestBone = 1e-4f;  // [m]; a shorter one has no direction
 
-// Of the bone before it: a shorter end site only marks the end, and may lie anywhere. Ours; a forearm of 25 cm has hands of
-// 8 cm or more, and writers of files put such ends 1 mm away.
+// Of the bone before it: a shorter end site only marks the end, and may lie anywhere. Ours; a forearm of 25 cm has
+// hands of 8 cm or more, and writers of files put such ends 1 mm away.
 constexpr float kShortestEnd = 0.06f;
 
 // The middle of the places of those joints the skeleton has.

@@ -15,8 +15,8 @@ struct TrunkLines {
 // The pelvis faces as the line of the hip joints says, and the chest, clavicles, neck and head as that of the
 // shoulders, if their turns lie aside from it by 45 degrees or more in most frames; both are turned about the length of
 // the trunk, and the spine between them evenly. Clavicles keep their own turn where it fits their joints better.
-// Where the pelvis lies across the trunk as well, by 45 degrees or more in most frames, the turns of the trunk say nothing:
-// pelvis and chest stand along it, and the spine goes evenly from one to the other.
+// Where the pelvis lies across the trunk as well, by 45 degrees or more in most frames, the turns of the trunk say
+// nothing: pelvis and chest stand along it, and the spine goes evenly from one to the other.
 // BodyMotion::pelvis_aside_deg and chest_aside_deg say what was corrected. Other motions, and those without hip joints,
 // stay as they are, bit by bit.
 // The 45 degrees are ours: shoulder girdles move the line of the shoulders by some 30 degrees, no body moves that of
