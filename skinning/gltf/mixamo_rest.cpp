@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -25,10 +24,6 @@ Quat axes(const Vec3& x, const Vec3& y, const Vec3& z) {
 
 Quat degrees_about(float angle, const Vec3& axis) {
     return glm::angleAxis(glm::radians(angle), axis);
-}
-
-float degrees_of(const Quat& turn) {
-    return glm::degrees(2 * std::atan2(length(Vec3(turn.x, turn.y, turn.z)), std::abs(turn.w)));
 }
 
 // The turn of a part in the world. Nothing for the face, whose parts go with the head.
@@ -108,9 +103,9 @@ std::optional<BindPose> mixamo_rest(const Skeleton& skeleton) {
         const bool is_middle = part == left_lower_arm || part == right_lower_arm;
         const bool is_judged = part == hips || part == head || part == left_upper_leg ||
                                part == right_upper_leg || part == left_lower_leg || part == right_lower_leg;
-        const float turned = is_middle   ? degrees_of(conjugate(before) * joint.rest.rotation)
-                             : is_judged ? degrees_of(conjugate(posed[j]) * world[j])
-                                         : 0;
+        const float turned = glm::degrees(is_middle   ? angle_between(before, joint.rest.rotation)
+                                          : is_judged ? angle_between(posed[j], world[j])
+                                                      : 0);
         if (turned <= most) continue;
         most = turned;
         most_posed = joint.name;
