@@ -1,5 +1,8 @@
 #include "study/build/pages.h"
 
+#include <functional>
+#include <map>
+
 #include "core/files/files.h"
 #include "core/text.h"
 #include "study/html/html.h"
@@ -12,9 +15,15 @@ std::string read_player_file(const std::string& name) {
     return read_text(find_asset("study/web/" + name));
 }
 
-void replace_all(std::string& text, std::string_view mark, std::string_view with) {
-    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + with.size()))
-        text.replace(at, mark.size(), with);
+// Each {{name}} of the page filled in. A value may hold such a mark itself, and keeps it.
+std::string filled_in(std::string_view page, const std::map<std::string, std::string, std::less<>>& values) {
+    std::string text;
+    for (std::size_t at; (at = page.find("{{")) != std::string::npos;) {
+        const std::size_t end = page.find("}}", at);
+        text.append(page.substr(0, at)).append(values.find(page.substr(at + 2, end - at - 2))->second);
+        page.remove_prefix(end + 2);
+    }
+    return text.append(page);
 }
 
 // JSON inside a script element: nothing in it may look like the element's end.
@@ -96,11 +105,10 @@ StudyPages pages_of_study(const StudyDraft& draft, const std::vector<double>& se
 }
 
 std::string make_index_page(const Json& pages) {
-    std::string page = read_player_file("index.html");
-    replace_all(page, "{{title}}", escape_html(pages.at("title").get<std::string>()));
-    replace_all(page, "{{language}}", escape_html(pages.at("language").get<std::string>()));
-    replace_all(page, "{{pages}}", escape_script(pages.dump()));
-    return page;
+    return filled_in(read_player_file("index.html"),
+                     {{"title", escape_html(pages.at("title").get<std::string>())},
+                      {"language", escape_html(pages.at("language").get<std::string>())},
+                      {"pages", escape_script(pages.dump())}});
 }
 
 std::string with_data(std::string page, const Json& pages) {

@@ -185,10 +185,10 @@ TEST_F(BuildStudy, ShowsOnEachPageTheVideosThatTheKeySays) {
 }
 
 TEST_F(BuildStudy, PutsTheSameDataIntoThePage) {
-    json_["title"] = "A < B & </script>";
+    json_["title"] = "A < B & </script> {{pages}}";
     build();
     const std::string page = read_text(folder_ / "study/public/index.html");
-    EXPECT_THAT(page, HasSubstr("<title>A &lt; B &amp; &lt;/script&gt;</title>"));
+    EXPECT_THAT(page, HasSubstr("<title>A &lt; B &amp; &lt;/script&gt; {{pages}}</title>"));
     const std::string mark = "id=\"pages\">";
     const std::size_t begin = page.find(mark) + mark.size();
     const std::string data = page.substr(begin, page.find("</script>", begin) - begin);
