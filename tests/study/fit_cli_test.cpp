@@ -306,12 +306,17 @@ TEST(NoInterpenetration, NeedsABodyWithAVolume) {
     EXPECT_THAT(stick.err,
                 HasSubstr("two-ways.bvh: a stick figure has no volume that its hands could enter; leave "
                           "--no-interpenetration out, or choose another avatar"));
-    // A humanoid of which the toes alone have a surface.
-    testing::GltfBuilder toes = testing::humanoid_file();
-    for (Json& node : toes.json["nodes"])
-        if (node["name"] != "mixamorig:LeftToeBase") node.erase("mesh");
+    // A humanoid of which a foot alone has a surface, and the hands one of a few millimetres.
+    testing::GltfBuilder foot = testing::humanoid_file();
+    for (Json& node : foot.json["nodes"]) {
+        if (node["name"] == "mixamorig:LeftHand" || node["name"] == "mixamorig:RightHand") {
+            node["scale"] = {0.01, 0.01, 0.01};
+        } else if (node["name"] != "mixamorig:LeftToeBase") {
+            node.erase("mesh");
+        }
+    }
     const fs::path bare = folder / "bare.glb";
-    toes.write_glb(bare);
+    foot.write_glb(bare);
     const Outcome nothing = run_chironomia({"convert", "--motion", kMotion, "--avatar", bare.string(),
                                             "--no-interpenetration", "--out", (folder / "b.glb").string()});
     EXPECT_EQ(nothing.exit_code, 3);
