@@ -1,6 +1,10 @@
 #include "study/cli/file_use.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <set>
 
 #include "core/error.h"
@@ -346,6 +350,24 @@ void refuse_standard_output(const OutputPath& output) {
         output.option));
 }
 
+// Seen before hours of work whose result could not be kept.
+void refuse_unwritable(const OutputPath& output) {
+    std::error_code none;
+    if (!output.ending.empty() && fs::is_directory(output.path, none))
+        throw Error(format("{}: this is a folder; name a file to write", output.path.string()));
+    fs::path folder = fs::absolute(output.path, none).parent_path();
+    while (fs::status(folder, none).type() == fs::file_type::not_found && folder.has_relative_path())
+        folder = folder.parent_path();
+    if (!fs::is_directory(folder, none)) {
+        throw Error(format("{}: {} cannot be written, as {} is no folder; name a place in a folder",
+                           output.path.string(), output.option, folder.string()));
+    }
+    if (::access(folder.c_str(), W_OK) != 0) {
+        throw Error(format("{}: {} cannot be written into {} ({}); change its permissions or write elsewhere",
+                           output.path.string(), output.option, folder.string(), std::strerror(errno)));
+    }
+}
+
 // The bytes that are none shown as numbers.
 std::string printable(const std::string& text) {
     std::string shown;
@@ -393,6 +415,7 @@ void refuse_lost_files(const FileUse& use) {
         refuse_standard_output(output);
         for (const InputPath& input : use.inputs) refuse_overwritten(output, input);
         refuse_other_ending(output);
+        refuse_unwritable(output);
         for (std::size_t j = 0; j < i; ++j) {
             const OutputPath& other = use.outputs[j];
             if (!is_same(output.path, other.path)) continue;

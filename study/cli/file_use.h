@@ -30,8 +30,9 @@ FileUse files_of(const Command& command);
 
 // Throws Error if an output is an input, by name or by link, if it lies among the files that are read in a
 // folder, or if two outputs are one; if the name of an output has not the ending of its kind of file; if an output
-// is "-", as what an option names is never written to standard output; if an input is a pipe or a device; or if
-// the name of a file that is read is no UTF-8, as messages and reports need it.
+// is "-", as what an option names is never written to standard output; if an output lies in no folder or in one that
+// may not be written; if an input is a pipe or a device; or if the name of a file that is read is no UTF-8, as messages
+// and reports need it.
 void refuse_lost_files(const FileUse& use);
 
 }  // namespace chironomia::study

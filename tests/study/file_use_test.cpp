@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -84,6 +85,26 @@ TEST_F(FileUse, WritesNoFileUnderTheNameOfAnotherKind) {
     expect_refused({"synth", "--text", "Hello", "--out", in("m.h5"), "--speech-out", in("s.mp3")},
                    "--speech-out writes a file whose name ends in .wav");
     EXPECT_EQ(read_text(in("plan.json")), "{}");
+}
+
+TEST_F(FileUse, RefusesBeforeAnyWorkWhatCannotBeWritten) {
+    fs::create_directory(in("s.wav"));
+    expect_refused({"synth", "--text", "Hello", "--out", in("m.h5"), "--speech-out", in("s.wav")},
+                   in("s.wav") + ": this is a folder; name a file to write");
+    expect_refused({"synth", "--text", "Hello", "--out", in("m.h5"), "--score-out", in("a.bvh/deep/s.json")},
+                   in("a.bvh/deep/s.json") + ": --score-out cannot be written, as " + in("a.bvh") +
+                       " is no folder; name a place in a folder");
+    expect_refused({"render", "--motion", in("a.bvh"), "--out", in("c.mp4"), "--report", in("a.wav/r.json")},
+                   "--report cannot be written, as");
+    for (const char* made : {"m.h5", "c.mp4"}) EXPECT_FALSE(fs::exists(in(made))) << made;
+}
+
+TEST_F(FileUse, RefusesAFolderThatIsProtectedFromWriting) {
+    if (::geteuid() == 0) GTEST_SKIP() << "the superuser may write everywhere";
+    fs::create_directory(in("locked"));
+    fs::permissions(in("locked"), fs::perms::owner_read | fs::perms::owner_exec);
+    expect_refused({"convert", "--motion", in("a.bvh"), "--out", in("locked/b.bvh")},
+                   "--out cannot be written into " + in("locked") + " (Permission denied); change its");
 }
 
 TEST_F(FileUse, KeepsWhatItReads) {
