@@ -31,6 +31,10 @@ Vec3 rest_bone(const Avatar& avatar, HumanJoint from, HumanJoint to) {
     return at(to) - at(from);
 }
 
+Bounds figure_bounds(const Avatar& avatar) {
+    return bounds_of(figure_of(avatar, rest_mesh(avatar)));
+}
+
 // Straightens the legs of a rest pose that sits, and lifts it until its soles are where they were: the figure will be
 // shown standing there. None for others.
 std::optional<Avatar> standing_rest(const Avatar& avatar) {
@@ -53,7 +57,7 @@ std::optional<Avatar> standing_rest(const Avatar& avatar) {
             rest = normalize(rest * conjugate(turn) * turn_between(bone, down) * turn);
         }
     }
-    const float lift = bounds_of(rest_mesh(avatar)).low.y - bounds_of(rest_mesh(standing)).low.y;
+    const float lift = figure_bounds(avatar).low.y - figure_bounds(standing).low.y;
     for (Joint& joint : standing.skeleton.joints)
         if (joint.parent < 0) joint.rest.translation.y += lift;
     return standing;
@@ -248,7 +252,8 @@ FigureMeasures measure_figure(const Avatar& at_rest) {
     const Avatar& avatar = standing ? *standing : at_rest;
     const RestJoints joints(avatar);
     const PosedMesh mesh = rest_mesh(avatar);
-    const Bounds bounds = bounds_of(mesh);
+    const PosedMesh alone = figure_of(avatar, mesh);
+    const Bounds bounds = bounds_of(alone);
     const float height = std::max(bounds.high.y - bounds.low.y, 1e-3f);
     const auto height_of = [&](const std::optional<Vec3>& place, float otherwise) {
         return place ? place->y : bounds.low.y + otherwise * height;
@@ -256,7 +261,7 @@ FigureMeasures measure_figure(const Avatar& at_rest) {
 
     using enum HumanJoint;
     FigureMeasures figure{.forward = facing_of(joints), .floor = bounds.low.y};
-    figure.top = top_of_head(mesh, bounds, joints.at(head));
+    figure.top = top_of_head(alone, bounds, joints.at(head));
     // Shares of the height of an adult where a joint is missing.
     figure.head = height_of(joints.at(head) ? joints.at(head) : joints.at(neck), 0.88f);
     figure.shoulders = height_of(joints.between(left_upper_arm), 0.81f);

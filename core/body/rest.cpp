@@ -1,5 +1,6 @@
 #include "core/body/rest.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace chironomia {
@@ -49,6 +50,20 @@ PosedMesh rest_mesh(const Avatar& avatar) {
     PosedMesh mesh;
     for (const Surface& surface : avatar.surfaces) {
         mesh.surfaces.push_back(posed_at_rest(avatar, surface, world_from_joint));
+    }
+    return mesh;
+}
+
+PosedMesh figure_of(const Avatar& avatar, PosedMesh mesh) {
+    const int hips = avatar.humanoid[HumanJoint::hips];
+    const auto is_loose = [&](const Surface& surface) {
+        int joint = surface.joint;
+        while (joint >= 0 && joint != hips) joint = avatar.skeleton.joints[static_cast<size_t>(joint)].parent;
+        return surface.skin < 0 && joint < 0;
+    };
+    if (hips < 0 || std::ranges::all_of(avatar.surfaces, is_loose)) return mesh;
+    for (size_t s = 0; s < mesh.surfaces.size(); ++s) {
+        if (is_loose(avatar.surfaces[s])) mesh.surfaces[s].positions.clear();
     }
     return mesh;
 }

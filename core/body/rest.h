@@ -20,6 +20,10 @@ struct Bounds {
 // The surfaces in the rest pose without morphs, in the world, in the order of Avatar::surfaces.
 PosedMesh rest_mesh(const Avatar& avatar);
 
+// The mesh of the figure alone: surfaces that hang stiffly on a joint that is not the hips or below them, such as a
+// pedestal or a room, are left without vertices. Unchanged where the avatar is no humanoid or all of it is stiff.
+PosedMesh figure_of(const Avatar& avatar, PosedMesh mesh);
+
 // The box around all vertices; zero for a mesh without any.
 Bounds bounds_of(const PosedMesh& mesh);
 

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <limits>
 
+#include "core/body/rest.h"
 #include "skinning/body/body_plan.h"
 #include "skinning/skin.h"
 
@@ -12,10 +13,10 @@ namespace {
 
 constexpr double kLowest = 0.05;  // share of the frames whose soles may sink below the floor
 
-// The lowest point of the avatar at rest, on which it stands [m].
+// The lowest point of the figure at rest, on which it stands [m].
 float rest_floor(const Avatar& avatar, const PostureRig& rig) {
     float lowest = std::numeric_limits<float>::max();
-    for (const PosedSurface& surface : skin(avatar, rest_pose(avatar)).surfaces) {
+    for (const PosedSurface& surface : figure_of(avatar, skin(avatar, rest_pose(avatar))).surfaces) {
         for (const Vec3& place : surface.positions) lowest = std::min(lowest, place.y);
     }
     if (lowest < std::numeric_limits<float>::max()) return lowest;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/body/rest.h"
 #include "core/text.h"
 #include "skinning/humanoid/stance.h"
 #include "skinning/skin.h"
@@ -16,14 +16,8 @@ double rounded(double value, double unit) {
 }
 
 float rest_height(const Avatar& avatar) {
-    float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
-    for (const PosedSurface& surface : skin(avatar, rest_pose(avatar)).surfaces) {
-        for (const Vec3& position : surface.positions) {
-            low = std::min(low, position.y);
-            high = std::max(high, position.y);
-        }
-    }
-    return std::max(0.0f, high - low);
+    const Bounds figure = bounds_of(figure_of(avatar, skin(avatar, rest_pose(avatar))));
+    return figure.high.y - figure.low.y;
 }
 
 std::string_view name_of(AlphaMode mode) {

@@ -18,7 +18,7 @@ constexpr float kShortGrownUp = 1.3f, kTallGrownUp = 2.1f;
 
 constexpr float kOffAxes = radians(10.0f);  // that a node makes up for
 
-// Of the rest pose, in axes that are turned by `axes`. Throws Error if a vertex is nowhere.
+// Of the figure in its rest pose, in axes that are turned by `axes`. Throws Error if a vertex is nowhere.
 Bounds rest_bounds(const Avatar& avatar, const Quat& axes) {
     PosedMesh mesh = skin(avatar, rest_pose(avatar));
     for (PosedSurface& surface : mesh.surfaces) {
@@ -33,7 +33,7 @@ Bounds rest_bounds(const Avatar& avatar, const Quat& axes) {
             position = conjugate(axes) * position;
         }
     }
-    return bounds_of(mesh);
+    return bounds_of(figure_of(avatar, std::move(mesh)));
 }
 
 Vec3 nearest_axis(const Vec3& direction) {

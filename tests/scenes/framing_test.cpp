@@ -35,6 +35,17 @@ std::string size_text(RenderSize size) {
     return format("{} x {}", size.width, size.height);
 }
 
+TEST(MeasureFigure, LooksPastAPropThatIsLoose) {
+    Avatar figure = stick_figure(1.7f);
+    figure.surfaces[0].joint = figure.humanoid[HumanJoint::hips];
+    Avatar beside = figure;
+    beside.surfaces.push_back(
+        {.name = "pillar", .positions = {{0, -3, 0}, {0, 9, 0}, {0.1f, 0, 0}}, .triangles = {0, 1, 2}});
+    const FigureMeasures expected = measure_figure(figure), found = measure_figure(beside);
+    EXPECT_EQ(found.floor, expected.floor);
+    EXPECT_EQ(found.top, expected.top);
+}
+
 TEST(MeasureFigure, FindsLengthsAndFacing) {
     const FigureMeasures figure = measure_figure(stick_figure(2, 0.5f));
     EXPECT_NEAR(figure.floor, 0, 1e-5);

@@ -63,6 +63,15 @@ TEST(StandUpright, LeavesAnAvatarThatStandsRight) {
     EXPECT_LT(distance(stance.forward, Vec3(0, 0, 1)), 1e-6f);
 }
 
+// A pedestal of 4 m that the file holds too says nothing about the figure's size or floor.
+TEST(StandUpright, LooksAtTheFigureAloneWhereAPropIsLoose) {
+    GltfBuilder file = humanoid_file();
+    file.json["nodes"].push_back(
+        {{"name", "pedestal"}, {"mesh", 0}, {"translation", {3, -4, 0}}, {"scale", {20, 20, 20}}});
+    file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size() - 1);
+    EXPECT_NE(read(file).skeleton.joints[0].name, kUprightJoint);
+}
+
 TEST(StandUpright, TurnsAnAvatarThatShowsItsBack) {
     const Avatar avatar = read(humanoid_under({{"rotation", {0, 1, 0, 0}}}));
     expect_stands_as_usual(avatar);
