@@ -192,7 +192,7 @@ TEST(FitCli, SaysThatAWalkerLeavesThePicture) {
 }
 
 // Hands that a lexicon puts where the belly is, and all that the bundled one lays on the body.
-TEST(FitCli, MotionsOfTheEngineStayOutOfTheBody) {
+TEST(NoInterpenetration, IsTrueOfMotionsOfTheEngine) {
     const TemporaryFolder folder;
     const fs::path lexicon = folder / "lexicon.json";
     write_text(lexicon,

@@ -99,6 +99,7 @@ TEST_F(ShardCli, WarnsOfWhatItRenders) {
     Json plan = read_json(folder_ / "plan.json");
     fs::copy(testing::test_file("tests/fixtures/gestures/walk.bvh"), folder_ / "walk.bvh");
     plan["render"]["scene"] = "full";
+    plan["render"]["fps"] = 5;
     for (Json& clip : plan["clips"]) {
         clip["motion"]["expressive"] = "walk.bvh";
         clip["cut"] = {0, 4};

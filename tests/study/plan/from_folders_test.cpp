@@ -140,7 +140,7 @@ TEST_F(PlanFromFolders, BecomesAStudyOfWhoRespondsToThePartner) {
             .exit_code,
         0);
     Json written = read_json(folder_ / "plan.json");
-    written["render"] = {{"size", {64, 36}}};
+    written["render"] = {{"size", {64, 36}}, {"avatar", "mannequin"}};
     written["checks"] = {{"count", 0}};
     written["participants"] = 2;
     write_json(folder_ / "plan.json", written);
