@@ -1,6 +1,7 @@
 #include "core/files/json_value.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/error.h"
 #include "core/text.h"
@@ -106,8 +107,9 @@ double JsonValue::number(double least, double most) const {
 }
 
 long long JsonValue::integer(long long least, long long most) const {
+    constexpr auto kLargest = static_cast<unsigned long long>(std::numeric_limits<long long>::max());
     const bool fits = json_->is_number_integer() &&
-                      !(json_->is_number_unsigned() && json_->get<unsigned long long>() > 0x7fffffffull);
+                      !(json_->is_number_unsigned() && json_->get<unsigned long long>() > kLargest);
     if (!fits || json_->get<long long>() < least || json_->get<long long>() > most) {
         refuse(format("is {}, a whole number from {} to {} is needed", shown(), least, most));
     }

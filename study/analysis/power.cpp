@@ -132,10 +132,11 @@ PowerStep simulate(const PowerDesign& design, std::size_t participants) {
     return step;
 }
 
-// "8", or "2 to 8" where sheets differ.
-std::string answers_text(const PowerDesign& design) {
+// "8 scores", or "2 to 8 scores" where sheets differ.
+std::string answers_text(const PowerDesign& design, std::string_view what) {
     const auto [least, most] = std::ranges::minmax(design.answers_each);
-    return least == most ? format("{}", least) : format("{} to {}", least, most);
+    if (least == most) return format("{} {}{}", least, what, least == 1 ? "" : "s");
+    return format("{} to {} {}s", least, most, what);
 }
 
 std::string effect_text(const PowerDesign& design) {
@@ -157,7 +158,7 @@ std::size_t more_than(std::size_t participants) {
 
 void refuse_nothing_to_find(const PowerDesign& design) {
     if (design.effect == 0)
-        throw Error("--effect: is 0, which nobody can find; give the smallest that matters");
+        throw Error("--effect: is 0, and an effect is needed; give the smallest that matters");
     const std::size_t most = *std::ranges::max_element(design.answers_each);
     if (most < design.shares) {
         throw Error(
@@ -179,8 +180,8 @@ PowerResult plan_power(const PowerDesign& design) {
     };
     // More and more, until even the low end of the interval will do; then nearer and nearer from both sides.
     std::size_t participants = kFewest;
-    while (participants <= kMost && power_of(participants).power_95.low < design.wanted)
-        participants = more_than(participants);
+    while (power_of(participants).power_95.low < design.wanted && participants < kMost)
+        participants = std::min(kMost, more_than(participants));
     PowerResult result;
     std::size_t below = 0, enough = 0;
     for (const auto& [number, step] : steps) {
@@ -243,10 +244,9 @@ std::string to_text(const PowerDesign& design, const PowerResult& result) {
     const std::string effect = effect_text(design);
     if (!result.needed) return text + format("\n{} needs more than {} participants\n", effect, kMost);
     const std::string most = result.at_most ? std::to_string(*result.at_most) : "more";
-    const std::string answers =
-        prefers ? format("{} comparisons of each participant with {} answers to choose from",
-                         answers_text(design), design.choices)
-                : format("{} scores of each participant", answers_text(design));
+    const std::string answers = answers_text(design, prefers ? "comparison" : "score") +
+                                " of each participant" +
+                                (prefers ? format(" with {} answers to choose from", design.choices) : "");
     return text +
            format("\n{} needs {} participants for {:g} % power ({} to {}; {} simulated studies each, {})\n",
                   effect, *result.needed, 100 * design.wanted, result.at_least, most, design.runs, answers);

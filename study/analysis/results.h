@@ -28,7 +28,7 @@ struct MiddleTests {
 struct CellResult {
     std::size_t cell = 0;
     Summary participants;               // of the participants' scores
-    Summary answers;                    // of all answers
+    Summary answers;                    // of all answers of the same
     std::optional<Density> density;     // of the participants' scores
     std::optional<MiddleTests> middle;  // of the same, where the cell goes from one condition to another
 };

@@ -48,10 +48,13 @@ Paired pair_up(const Means& first, const Means& second) {
     return paired;
 }
 
-std::vector<double> answers_of(const Dataset& data, std::size_t question, std::size_t cell) {
+// Of the participants in `who`.
+std::vector<double> answers_of(const Dataset& data, std::size_t question, std::size_t cell,
+                               const Means& who) {
     std::vector<double> values;
     for (const Score& score : data.scores) {
-        if (score.question == question && score.cell == cell) values.push_back(score.value);
+        if (score.question == question && score.cell == cell && who.contains(score.participant))
+            values.push_back(score.value);
     }
     return values;
 }
@@ -147,7 +150,7 @@ WithinTests compare_all(const std::vector<Means>& cells) {
 }
 
 // Those who rated several cells, where most rated one: the cells are groups of different people, and somebody who came
-// back to another one belongs to none of them. Half is ours.
+// back to another one belongs to none of them. Each cell must keep somebody. Half is ours.
 std::set<std::size_t> strays_of(const std::vector<Means>& cells) {
     std::map<std::size_t, std::size_t> rated;
     for (const Means& cell : cells) {
@@ -157,7 +160,11 @@ std::set<std::size_t> strays_of(const std::vector<Means>& cells) {
     for (const auto& [participant, count] : rated) {
         if (count > 1) several.insert(participant);
     }
-    return 2 * several.size() < rated.size() ? several : std::set<std::size_t>{};
+    const auto is_of_others = [&](const Means& cell) {
+        return std::ranges::any_of(cell, [&](const auto& mean) { return !several.contains(mean.first); });
+    };
+    const bool are_groups = 2 * several.size() < rated.size() && std::ranges::all_of(cells, is_of_others);
+    return are_groups ? several : std::set<std::size_t>{};
 }
 
 ScoreResult compute_question(const Dataset& data, std::size_t question) {
@@ -173,7 +180,7 @@ ScoreResult compute_question(const Dataset& data, std::size_t question) {
         groups.push_back(values_of(means[i]));
         result.cells.push_back({.cell = cells[i],
                                 .participants = summarize(groups.back()),
-                                .answers = summarize(answers_of(data, question, cells[i])),
+                                .answers = summarize(answers_of(data, question, cells[i], means[i])),
                                 .density = gaussian_density(groups.back(), result.range, kDensityPoints)});
         if (data.sided_cells.contains(cells[i]))
             result.cells.back().middle =

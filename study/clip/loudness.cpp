@@ -57,8 +57,9 @@ LoudSound bring_to(const Audio& sound, double target) {
     const Loudness loudness = measure_loudness(sound);
     LoudSound result{.sound = sound, .warning = {}};
     if (!loudness.integrated) {
-        result.warning =
-            format("the sound is silent, or shorter than 0.4 s; it cannot be brought to {:.1f} LUFS", target);
+        result.warning = format(
+            "the sound is never louder than -70 LUFS, or shorter than 0.4 s; it cannot be brought to {:.1f} LUFS",
+            target);
         return result;
     }
     const double wanted = target - *loudness.integrated;

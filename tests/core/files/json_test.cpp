@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/files/files.h"
+#include "core/files/json_value.h"
 #include "tests/support/support.h"
 
 namespace chironomia {
@@ -60,6 +63,19 @@ TEST(ReadJson, RefusesAKeyThatStandsTwiceInOneObject) {
         (folder / "plan.json").string() + ": clips.motion.x" + end);
     write_text(folder / "plan.json", R"([{"a": {"a": 1}}, {"a": 2}])");
     EXPECT_EQ(read_json(folder / "plan.json"), Json::parse(R"([{"a": {"a": 1}}, {"a": 2}])"));
+}
+
+// A seed is any number of 63 bits.
+TEST(JsonValueInteger, IsAnyWholeNumberInItsRange) {
+    constexpr long long kLargest = std::numeric_limits<long long>::max();
+    const Json json = {{"seed", kLargest}, {"many", 3'000'000'000}, {"beyond", 9223372036854775808u}};
+    const JsonValue value(json, "job");
+    EXPECT_EQ(value.at("seed").integer(0, kLargest), kLargest);
+    EXPECT_EQ(value.at("many").integer(0, kLargest), 3'000'000'000);
+    EXPECT_EQ(testing::refusal_of([&] { value.at("many").integer(0, 1000); }),
+              "job: many: is 3000000000, a whole number from 0 to 1000 is needed");
+    EXPECT_EQ(testing::refusal_of([&] { value.at("beyond").integer(0, kLargest); }),
+              "job: beyond: is 9223372036854775808, a whole number from 0 to 9223372036854775807 is needed");
 }
 
 TEST(WriteJson, KeepsTheOrderOfKeys) {

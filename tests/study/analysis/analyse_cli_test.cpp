@@ -272,6 +272,21 @@ TEST(AnalyseCli, LeavesOutWhoSawTwoConditionsWhereTheOthersSawOne) {
     EXPECT_NEAR(lenient["anova"].at(0)["f"].get<double>(), 2, 1e-9);
     EXPECT_EQ(lenient["welch_t"].size(), 3u);
     EXPECT_FALSE(lenient.contains("paired_t"));
+    const Json first = lenient["scores"].at(0);
+    EXPECT_EQ(first["participants"], 2);
+    EXPECT_EQ(first["answers"], 2);
+    EXPECT_EQ(first["mean"], 2);
+    EXPECT_EQ(first["mean_of_answers"], 2) << "the other conditions' participant is in neither";
+}
+
+// Of a condition that only somebody rated who rated others too the rest are no group.
+TEST(AnalyseCli, KeepsWhoAloneSawACondition) {
+    const TemporaryFolder folder;
+    const Outcome outcome = analyse_ratings(folder, {{1, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 6, 0}, {7, 1, 3}});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Json lenient = read_json(folder / "out/analysis.json")["lenient"];
+    for (const auto& [row, people] : {std::pair(0, 3), std::pair(1, 3), std::pair(2, 1)})
+        EXPECT_EQ(lenient["scores"].at(static_cast<std::size_t>(row))["participants"], people) << row;
 }
 
 using Answers = std::vector<std::vector<std::vector<int>>>;
@@ -508,7 +523,7 @@ TEST(PlanCli, PrintsTheBalanceAndHowManyParticipantsAnEffectNeeds) {
     EXPECT_EQ(run_chironomia({"study", "plan", plan, "--effect", "200"}).exit_code, 2);
     const Outcome nothing = run_chironomia({"study", "plan", plan, "--power", "--effect", "0"});
     EXPECT_EQ(nothing.exit_code, 3);
-    EXPECT_THAT(nothing.err, HasSubstr("--effect: is 0, which nobody can find"));
+    EXPECT_THAT(nothing.err, HasSubstr("--effect: is 0, and an effect is needed"));
 }
 
 TEST(AnalysisPage, ShowsItsPlotsInABrowser) {

@@ -101,6 +101,17 @@ TEST(PlanPower, TheDirectionOfTheEffectDoesNotMatterAndTheSeedDecides) {
                 static_cast<double>(*plan_power(design).needed), 3);
 }
 
+// The effect for which 643 participants suffice, made smaller: their number grows with its inverse square.
+TEST(PlanPower, TriesAsManyAsItSaysThatAreTooFew) {
+    const PowerDesign design{.answers_each = {1}, .effect = 20.5, .runs = 400};
+    const PowerResult result = plan_power(design);
+    EXPECT_EQ(result.steps.back().participants, 2000u);
+    ASSERT_TRUE(result.needed);
+    EXPECT_GT(*result.needed, 1553u);
+    EXPECT_THAT(to_text(design, result),
+                HasSubstr("simulated studies each, 1 comparison of each participant"));
+}
+
 TEST(PlanPower, SaysWhereNoNumberIsEnough) {
     const PowerDesign design{.answers_each = {1}, .effect = 1, .runs = 20};
     const PowerResult result = plan_power(design);
@@ -111,7 +122,7 @@ TEST(PlanPower, SaysWhereNoNumberIsEnough) {
 
 TEST(PlanPower, RefusesWhatCannotBeFound) {
     EXPECT_EQ(refusal_of([] { plan_power({.effect = 0}); }),
-              "--effect: is 0, which nobody can find; give the smallest that matters");
+              "--effect: is 0, and an effect is needed; give the smallest that matters");
     EXPECT_EQ(refusal_of([] { plan_power({.shares = 6, .answers_each = {5}}); }),
               "--power: a participant gives 5 answers, and there are 6 pairs of conditions; let each give at "
               "least 6");

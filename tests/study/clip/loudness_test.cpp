@@ -197,7 +197,9 @@ TEST(BringTo, LeavesSilenceAlone) {
     const Audio silence = sine({.peak = 0});
     const LoudSound loud = bring_to(silence, -23);
     EXPECT_EQ(loud.sound.samples, silence.samples);
-    EXPECT_EQ(loud.warning, "the sound is silent, or shorter than 0.4 s; it cannot be brought to -23.0 LUFS");
+    EXPECT_EQ(
+        loud.warning,
+        "the sound is never louder than -70 LUFS, or shorter than 0.4 s; it cannot be brought to -23.0 LUFS");
 }
 
 TEST(LoudnessOfFile, IsThatOfTheSoundOfAClip) {
