@@ -20,41 +20,7 @@ struct UnitRating {
     std::size_t rater = 0;
     std::size_t value = 0;  // index
 };
-using Unit = std::vector<UnitRating>;
-
-// The pairs of values within one unit, as Krippendorff's coincidences.
-struct Coincidence {
-    std::size_t first = 0;  // index of a value
-    std::size_t second = 0;
-    double weight = 0;
-};
-
-// `times`: how often each rater counts. Each rating has a weight of 1 among the pairs with those of others.
-std::vector<Coincidence> coincidences_of(const Unit& unit, const std::vector<double>& times) {
-    struct Count {
-        double ratings = 0;
-        double of_one_rater = 0;  // pairs of a rater with themselves
-    };
-    std::map<std::size_t, Count> counts;
-    double ratings = 0, of_one_rater = 0;
-    for (const UnitRating& rating : unit) {
-        const double count = times[rating.rater];
-        if (count == 0) continue;
-        counts[rating.value].ratings += count;
-        counts[rating.value].of_one_rater += count * count;
-        ratings += count;
-        of_one_rater += count * count;
-    }
-    std::vector<Coincidence> found;
-    const double partners = (ratings * ratings - of_one_rater) / ratings;
-    for (const auto& [a, of_a] : counts) {
-        for (const auto& [b, of_b] : counts) {
-            const double pairs = of_a.ratings * of_b.ratings - (a == b ? of_a.of_one_rater : 0);
-            if (pairs > 0) found.push_back({a, b, pairs / partners});
-        }
-    }
-    return found;
-}
+using Unit = std::vector<UnitRating>;  // by value
 
 // The values that raters gave.
 struct Values {
@@ -62,46 +28,99 @@ struct Values {
     ValueScale scale;
 };
 
-// (V, V) squared distances, which on an ordinal scale depend on how often each value was given.
-std::vector<double> distances_of(const Values& values, const std::vector<double>& times) {
-    const auto& [numbers, scale] = values;
-    const std::size_t n = numbers.size();
-    std::vector<double> distances(n * n, 0);
-    for (std::size_t a = 0; a < n; ++a) {
-        double between = times[a] / 2;
-        for (std::size_t b = a + 1; b < n; ++b) {
-            const double ranks = between + times[b] / 2;
-            between += times[b];
-            const double distance = scale == ValueScale::nominal   ? 1
-                                    : scale == ValueScale::ordinal ? ranks
-                                                                   : numbers[b] - numbers[a];
-            distances[a * n + b] = distances[b * n + a] = distance * distance;
-        }
+// How often each rater and each unit counts.
+struct Draw {
+    std::vector<double> units;
+    std::vector<double> raters;
+};
+
+// How often a value was given.
+struct Count {
+    std::size_t value = 0;
+    double times = 0;
+};
+
+// Where values lie, so that their distance is the difference of their places. On an ordinal scale the middle of their
+// ranks; none on a nominal one, where all are 1 apart.
+std::vector<double> places_of(const Values& values, const std::vector<double>& times) {
+    if (values.scale == ValueScale::nominal) return {};
+    if (values.scale == ValueScale::interval) return values.numbers;
+    std::vector<double> places;
+    double below = 0;
+    for (const double count : times) {
+        places.push_back(below + count / 2);
+        below += count;
     }
-    return distances;
+    return places;
 }
 
-std::optional<double> alpha_of(const std::vector<std::vector<Coincidence>>& units, const Values& values) {
-    const std::size_t n = values.numbers.size();
-    std::vector<double> times(n, 0);
+// The squared distances of all ordered pairs of what was given.
+double sum_of_distances(const std::vector<Count>& counts, const std::vector<double>& places) {
+    double all = 0, sum = 0, same = 0, squares = 0;
+    for (const Count& count : counts) {
+        all += count.times;
+        same += count.times * count.times;
+        if (!places.empty()) sum += count.times * places[count.value];
+    }
+    if (places.empty()) return all * all - same;
+    for (const Count& count : counts) {
+        const double off = places[count.value] - sum / all;
+        squares += count.times * off * off;
+    }
+    return 2 * all * squares;
+}
+
+// The values of one unit, and how many others each rating meets there: two of one rater are no pair.
+struct UnitCounts {
+    std::vector<Count> counts;
+    double partners = 0;
+};
+
+UnitCounts counts_of(const Unit& unit, const std::vector<double>& times_of_raters) {
+    UnitCounts result;
+    double ratings = 0, of_one_rater = 0;
+    for (const UnitRating& rating : unit) {
+        const double count = times_of_raters[rating.rater];
+        if (count == 0) continue;
+        if (result.counts.empty() || result.counts.back().value != rating.value)
+            result.counts.push_back({rating.value, 0});
+        result.counts.back().times += count;
+        ratings += count;
+        of_one_rater += count * count;
+    }
+    result.partners = ratings > 0 ? (ratings * ratings - of_one_rater) / ratings : 0;
+    return result;
+}
+
+// In sums of each unit instead of Krippendorff's matrix of coincidences, so that many values and raters take no longer.
+std::optional<double> alpha_of(const std::vector<Unit>& units, const Values& values, const Draw& draw) {
+    std::vector<double> times(values.numbers.size(), 0);
+    std::vector<UnitCounts> counts;
     double all = 0;
-    for (const auto& unit : units) {
-        for (const Coincidence& pair : unit) {
-            times[pair.first] += pair.weight;
-            all += pair.weight;
+    for (std::size_t u = 0; u < units.size(); ++u) {
+        counts.push_back(counts_of(units[u], draw.raters));
+        if (draw.units[u] == 0 || !(counts.back().partners > 0)) continue;
+        double ratings = 0;
+        for (const Count& count : counts.back().counts) ratings += count.times;
+        for (const UnitRating& rating : units[u]) {
+            const double count = draw.raters[rating.rater];
+            const double pairs = draw.units[u] * count * (ratings - count) / counts.back().partners;
+            times[rating.value] += pairs;
+            all += pairs;
         }
     }
-    const std::vector<double> distances = distances_of(values, times);
-    double observed = 0, expected = 0;
-    for (const auto& unit : units) {
-        for (const Coincidence& pair : unit)
-            observed += pair.weight * distances[pair.first * n + pair.second];
+    const std::vector<double> places = places_of(values, times);
+    double observed = 0;
+    for (std::size_t u = 0; u < units.size(); ++u) {
+        if (draw.units[u] > 0 && counts[u].partners > 0)
+            observed += draw.units[u] * sum_of_distances(counts[u].counts, places) / counts[u].partners;
     }
-    for (std::size_t a = 0; a < n; ++a) {
-        for (std::size_t b = 0; b < n; ++b) expected += times[a] * times[b] * distances[a * n + b];
+    std::vector<Count> given;
+    for (std::size_t value = 0; value < times.size(); ++value) {
+        if (times[value] > 0) given.push_back({value, times[value]});
     }
-    if (!(expected > 0)) return std::nullopt;
-    return 1 - (all - 1) * observed / expected;
+    if (given.size() < 2) return std::nullopt;
+    return 1 - (all - 1) * observed / sum_of_distances(given, places);
 }
 
 std::optional<Interval> resampled(const std::vector<Unit>& units, std::size_t raters, const Values& values,
@@ -110,15 +129,10 @@ std::optional<Interval> resampled(const std::vector<Unit>& units, std::size_t ra
     std::vector<double> drawn;
     Random random(seed);
     for (std::size_t sample = 0; sample < kResamples; ++sample) {
-        const std::vector<double> of_units = draw_items(units.size(), random),
-                                  of_raters = draw_items(raters, random);
-        std::vector<std::vector<Coincidence>> chosen;
-        for (std::size_t i = 0; i < units.size(); ++i) {
-            if (of_units[i] == 0) continue;
-            chosen.push_back(coincidences_of(units[i], of_raters));
-            for (Coincidence& pair : chosen.back()) pair.weight *= of_units[i];
-        }
-        if (const auto alpha = alpha_of(chosen, values)) drawn.push_back(*alpha);
+        std::vector<double> of_units = draw_items(units.size(), random);
+        std::vector<double> of_raters = draw_items(raters, random);
+        const Draw draw{.units = std::move(of_units), .raters = std::move(of_raters)};
+        if (const auto alpha = alpha_of(units, values, draw)) drawn.push_back(*alpha);
     }
     if (drawn.empty()) return std::nullopt;
     return interval_95(std::move(drawn));
@@ -194,16 +208,16 @@ std::optional<Alpha> krippendorff_alpha(std::span<const Rating> ratings, ValueSc
     }
     Alpha result{.units = of_unit.size()};
     std::vector<Unit> units;
-    std::vector<std::vector<Coincidence>> all;
-    const std::vector<double> once(raters.size(), 1);
     for (const auto& [unit, given] : of_unit) {
         Unit& of_raters = units.emplace_back();
         for (const Rating& rating : given)
             of_raters.push_back({raters.at(rating.rater), index.at(rating.value)});
-        all.push_back(coincidences_of(of_raters, once));
+        std::ranges::stable_sort(of_raters, {}, &UnitRating::value);
         result.ratings += given.size();
     }
-    const auto alpha = alpha_of(all, values);
+    const Draw once{.units = std::vector<double>(units.size(), 1),
+                    .raters = std::vector<double>(raters.size(), 1)};
+    const auto alpha = alpha_of(units, values, once);
     if (!alpha) return std::nullopt;
     result.alpha = *alpha;
     result.alpha_95 = resampled(units, raters.size(), values, seed);

@@ -15,15 +15,17 @@ constexpr std::size_t kMostExact = 50;
 // Means of the same ratings may come out a little apart.
 constexpr double kSame = 1e-9;
 
-// The chance of a sum of ranks of at most `statistic`, doubled: each rank counts with chance 1/2.
-double exact_p(std::size_t n, std::size_t statistic) {
-    std::vector<double> ways(n * (n + 1) / 2 + 1, 0);
+// The chance of a sum of ranks of at most `statistic`, doubled: each rank counts with chance 1/2. Those of ties are
+// halves, so that sums are counted in halves.
+double exact_p(const std::vector<double>& ranks, double statistic) {
+    const std::size_t n = ranks.size();
+    std::vector<double> ways(n * (n + 1) + 1, 0);
     ways[0] = 1;
-    for (std::size_t rank = 1; rank <= n; ++rank) {
-        for (std::size_t sum = ways.size() - 1; sum >= rank; --sum) ways[sum] += ways[sum - rank];
+    for (const double rank : ranks) {
+        const auto halves = static_cast<std::size_t>(std::lround(2 * rank));
+        for (std::size_t sum = ways.size() - 1; sum >= halves; --sum) ways[sum] += ways[sum - halves];
     }
-    const double at_most =
-        std::accumulate(ways.begin(), ways.begin() + static_cast<std::ptrdiff_t>(statistic) + 1, 0.0);
+    const double at_most = std::accumulate(ways.begin(), ways.begin() + std::lround(2 * statistic) + 1, 0.0);
     return std::min(1.0, 2 * at_most / std::ldexp(1.0, static_cast<int>(n)));
 }
 
@@ -71,9 +73,9 @@ std::optional<RankTest> wilcoxon_signed_rank(std::span<const double> first, std:
     for (std::size_t i = 0; i < test.n; ++i) above += is_above[i] ? ranks.of[i] : 0;
     const auto n = static_cast<double>(test.n);
     test.statistic = std::min(above, n * (n + 1) / 2 - above);
-    test.exact = test.n <= kMostExact && test.same == 0 && ranks.tied == 0;
+    test.exact = test.n <= kMostExact;
     if (test.exact) {
-        test.p = exact_p(test.n, static_cast<std::size_t>(test.statistic));
+        test.p = exact_p(ranks.of, test.statistic);
     } else {
         const double variance = (n * (n + 1) * (2 * n + 1) - ranks.tied / 2) / 24;
         test.p = normal_two_sided((test.statistic - n * (n + 1) / 4) / std::sqrt(variance));

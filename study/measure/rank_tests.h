@@ -16,10 +16,11 @@ struct RankTest {
     bool exact = false;
 };
 
-// Wilcoxon's signed-rank test. Exact for at most 50 pairs without zero differences and without ties;
-// otherwise the normal approximation with the variance corrected for ties and without a correction for
-// continuity, as SciPy does. Differences and their amounts that are within 1e-9 of each other are the same.
-// None where no pair differs.
+// Wilcoxon's signed-rank test of the pairs that differ. Exact for at most 50 of them: the chance of all signs, given
+// the ranks, of which ties share the mean. Otherwise the normal approximation with the variance corrected for ties and
+// without a correction for continuity, as SciPy does; of few pairs with ties it would give less than the smallest p
+// that there is. Differences and their amounts that are within 1e-9 of each other are the same. None where no pair
+// differs.
 std::optional<RankTest> wilcoxon_signed_rank(std::span<const double> first, std::span<const double> second);
 
 struct FriedmanTest {
