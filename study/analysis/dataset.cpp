@@ -68,7 +68,7 @@ bool asks_for_reasons(const Question& question, const Json& value) {
 std::size_t sided_cell(Dataset& data, std::size_t first, std::size_t second) {
     const std::string label = data.conditions[first].name + " over " + data.conditions[second].name;
     const std::size_t cell = number_of(data.cells, label);
-    data.sided_cells.insert(cell);
+    data.sided_cells[cell] = {first, second};
     return cell;
 }
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -109,9 +108,9 @@ struct Dataset {
     std::vector<std::optional<std::size_t>> passes_of_scales;  // of each; none: of whichever pass asks it
     std::vector<Question> questionnaire;                       // asked at the end
     std::vector<std::string> cells;  // labels of scores; the first are the conditions
-    // Cells of two conditions whose scores go from one to the other, so that the middle of the scale says that they are
-    // equal.
-    std::set<std::size_t> sided_cells;
+    // Cells of two conditions whose scores go from the second to the first, so that the middle of the scale says that
+    // they are equal.
+    std::map<std::size_t, std::pair<std::size_t, std::size_t>> sided_cells;
     // Of cells about a ranked option its text: only scores of the same option are compared.
     std::map<std::size_t, std::string> option_of_cell;
     std::vector<std::string> units;  // ids of pages and videos

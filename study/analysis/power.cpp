@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "core/text.h"
 #include "study/analysis/simulated_rater.h"
+#include "study/measure/distributions.h"
 #include "study/measure/mean_tests.h"
 #include "study/measure/proportions.h"
 
@@ -37,10 +38,13 @@ std::size_t share_of(const PowerDesign& design, std::size_t share, std::size_t p
     return answers / design.shares + (turn % design.shares < answers % design.shares ? 1 : 0);
 }
 
-// The scores of all participants for the first condition, and for the second.
+// The scores of all participants for the first condition, and for the second; of preferences how many of whose votes
+// are for the first more than for the second.
 struct Drawn {
-    std::vector<double> first;
-    std::vector<double> second;
+    std::vector<double> first{};
+    std::vector<double> second{};
+    std::vector<int> balances{};
+    std::vector<int> votes{};
 };
 
 Drawn draw_preferences(const PowerDesign& design, std::size_t participants, Random& random) {
@@ -50,13 +54,15 @@ Drawn draw_preferences(const PowerDesign& design, std::size_t participants, Rand
     for (std::size_t p = 0; p < participants; ++p) {
         const double leaning = design.participant_sd * random.normal();
         const std::size_t count = share_of(design, 0, p);
-        double sum = 0;
-        for (std::size_t i = 0; i < count; ++i)
-            sum += steps_felt(gap + leaning + clips[(p + i) % clips.size()] + logistic_noise(random),
-                              design.choices);
+        int balance = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const int steps = steps_felt(
+                gap + leaning + clips[(p + i) % clips.size()] + logistic_noise(random), design.choices);
+            balance += (steps > 0) - (steps < 0);
+        }
         if (count == 0) continue;
-        drawn.first.push_back(sum / static_cast<double>(count));
-        drawn.second.push_back(0);
+        drawn.balances.push_back(balance);
+        drawn.votes.push_back(static_cast<int>(count));
     }
     return drawn;
 }
@@ -114,6 +120,31 @@ Drawn draw_answers(const PowerDesign& design, std::size_t participants, Random& 
     return {};
 }
 
+// The same of the sum of signed shares, which is nearly normal.
+double flip_p_of_many(const Drawn& drawn, double sum) {
+    double squares = 0;
+    for (std::size_t i = 0; i < drawn.votes.size(); ++i) {
+        const double share = 1.0 * drawn.balances[i] / drawn.votes[i];
+        squares += share * share;
+    }
+    return squares > 0 ? normal_two_sided(sum / std::sqrt(squares)) : 1;
+}
+
+// An effect counts as found only if it has the right sign.
+bool is_found(const PowerDesign& design, const Drawn& drawn) {
+    constexpr std::size_t kMostExact = 100;  // ours; of more participants the exact test takes long
+    if (design.kind != AnswerKind::preferences) {
+        const auto test = paired_t(drawn.first, drawn.second);
+        return test && test->p < design.significance && test->difference * design.effect > 0;
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < drawn.votes.size(); ++i) sum += 1.0 * drawn.balances[i] / drawn.votes[i];
+    if (!(sum * design.effect > 0)) return false;
+    const double p = drawn.votes.size() <= kMostExact ? sign_flip_test(drawn.balances, drawn.votes)
+                                                      : flip_p_of_many(drawn, sum);
+    return p < design.significance;
+}
+
 PowerStep simulate(const PowerDesign& design, std::size_t participants) {
     // Numbers of participants have randomness of their own, so that no step depends on which others were
     // tried.
@@ -123,9 +154,7 @@ PowerStep simulate(const PowerDesign& design, std::size_t participants) {
         const std::uint64_t own = (static_cast<std::uint64_t>(seeds.next()) << 32) | seeds.next();
         Random random(own);
         const Drawn drawn = draw_answers(design, participants, random);
-        const auto test = paired_t(drawn.first, drawn.second);
-        // An effect counts as found only if it has the right sign.
-        step.found += test && test->p < design.significance && test->difference * design.effect > 0;
+        step.found += is_found(design, drawn);
     }
     step.power = static_cast<double>(step.found) / static_cast<double>(design.runs);
     step.power_95 = exact_share_95(step.found, design.runs);

@@ -53,13 +53,14 @@ struct PowerResult {
 };
 
 // Preferences: Bradley-Terry with ties. The first is preferred where the gap, what the participant and the clip add and
-// logistic noise are above 0; the answers are those of a rehearsal (steps_felt()). A participant's score is the mean of
-// their votes on the pair, each the steps that it is from equal, as the analysis has it. Scores: normal, of standard
-// deviation 1 for all participants and clips together. A participant's score is the mean over the clips that they rated
-// of either condition. Sided scores: the same of the mean less the middle. The test is the t of the participants'
-// (differences of) scores, in which participants are drawn and clips are not: what clips add sums to 0. The pages of a
-// participant are shared out evenly among all pairs, or conditions; those who have none of the pair are left out.
-// Throws Error if everybody has fewer answers than there are pairs, or conditions, or the effect is 0.
+// logistic noise are above 0; the answers are those of a rehearsal (steps_felt()). The test is that of the analysis:
+// the randomization of signs of each participant's wins less losses (of more than 100 participants its normal
+// approximation). Scores: normal, of standard deviation 1 for all participants and clips together. A participant's
+// score is the mean over the clips that they rated of either condition. Sided scores: the same of the mean less the
+// middle. Their test is the t of the participants' (differences of) scores, in which participants are drawn and clips
+// are not: what clips add sums to 0. The pages of a participant are shared out evenly among all pairs, or conditions;
+// those who have none of the pair are left out. Throws Error if everybody has fewer answers than there are pairs, or
+// conditions, or the effect is 0.
 PowerResult plan_power(const PowerDesign& design);
 
 Json to_json(const PowerDesign& design, const PowerResult& result);

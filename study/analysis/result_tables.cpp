@@ -35,8 +35,8 @@ Table rater_votes_table(const TableSource& of) {
             "participants of how often they preferred the first, ties half, with Student's interval; the score "
             "is that of how strongly, in steps of the question from equal (of five answers from -2, clearly the "
             "second, to 2, clearly the first, as the mean appropriateness score of GENEA 2023); p is "
-            "of Fisher's randomization test of each participant's wins less losses, exact, and Holm's is "
-            "adjusted for all pairs of the question. Participants are taken as independent, and as likely "
+            "of Fisher's randomization test of each participant's wins less losses as a share of their votes, and "
+            "Holm's is adjusted for all pairs of the question. Participants are taken as independent, and as likely "
             "to lean either way if the conditions are equal; votes of one participant need not be "
             "independent, and the clips are taken as given",
         .columns = {{"question", "question"},
@@ -183,10 +183,11 @@ Table elo_table(const TableSource& of) {
         .id = "elo",
         .title = "Strengths on the scale of Elo",
         .note =
-            "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one (2 for each step "
-            "from equal), 1 to either for a tie; all votes of a group count, also those between a condition and what "
-            "is made of it, but a group of two such has a share instead; 1000 is the mean of a group, 200 more are preferred in "
-            "76 % of decided votes; intervals of 95 % from resampled participants, who are taken as independent; an end that "
+            "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one (2 for each step"
+            " from equal), 1 to either for a tie; all votes of a group count, also those between a condition and what"
+            " is made of it, but a group of two such has a share instead; 1000 is the mean of a group; 200 more are "
+            "preferred in 76 % of votes where a question has two answers, and in another share where it has ties or "
+            "clear answers; intervals of 95 % from resampled participants, who are taken as independent; an end that "
             "more than 2.5 % of the resamples leave without bound is a dash; the clips are taken as given",
         .columns = {{"question", "question"},
                     {"group", "group", Show::whole},

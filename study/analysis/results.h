@@ -41,9 +41,11 @@ struct CellPair {
     std::optional<MeanTest> paired;  // of those
     std::optional<RankTest> ranks;   // of those
     std::optional<MeanTest> welch;   // of two groups of participants, where nobody rated both
-    double paired_holm_p = 1;        // of `paired`, among all pairs of the question that somebody rated
-    double ranks_holm_p = 1;         // of `ranks`, the same
-    double welch_holm_p = 1;         // of `welch`, among all pairs that nobody rated
+    double t_holm_p = 1;             // of `paired` or `welch`, among all pairs of the question
+    double ranks_holm_p = 1;         // of `ranks`, among all pairs of the question that somebody rated
+    // Of scores that go from one condition to another: the second's are turned round, as "x over base" and "base over
+    // y" are of x and y over base.
+    bool turned = false;
 };
 
 struct QuestionPair {

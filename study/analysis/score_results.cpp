@@ -97,20 +97,37 @@ CellPair compare(const Means& first, const Means& second) {
             .welch = paired.first.empty() ? welch_t(values_of(first), values_of(second)) : std::nullopt};
 }
 
-// Of the pairs that somebody rated, or of those that nobody did. Pairs whose test could not be made, as all differences
-// are the same, were to be tested too: they count with p = 1.
-template <typename Test>
-void adjust(std::vector<CellPair>& pairs, bool rated, std::optional<Test> CellPair::*test,
-            double CellPair::*holm_p) {
-    std::vector<double> p;
+// Pairs whose test could not be made, as all differences are the same, would have been tested too: they count with
+// p = 1.
+void adjust(std::vector<CellPair>& pairs) {
+    std::vector<double> t, ranks;
     for (const CellPair& pair : pairs) {
-        if ((pair.both > 0) == rated) p.push_back(pair.*test ? (pair.*test)->p : 1);
+        t.push_back(pair.paired ? pair.paired->p : pair.welch ? pair.welch->p : 1);
+        if (pair.both > 0) ranks.push_back(pair.ranks ? pair.ranks->p : 1);
     }
-    const std::vector<double> adjusted = adjust_holm(p);
+    const std::vector<double> of_t = adjust_holm(t), of_ranks = adjust_holm(ranks);
     std::size_t next = 0;
-    for (CellPair& pair : pairs) {
-        if ((pair.both > 0) == rated) pair.*holm_p = adjusted[next++];
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        pairs[i].t_holm_p = of_t[i];
+        if (pairs[i].both > 0) pairs[i].ranks_holm_p = of_ranks[next++];
     }
+}
+
+// The conditions of two sided cells, if they have one in common.
+enum class Common { none, same_side, other_side };
+
+Common common_condition(const Dataset& data, std::size_t a, std::size_t b) {
+    const auto of_a = data.sided_cells.find(a), of_b = data.sided_cells.find(b);
+    if (of_a == data.sided_cells.end() || of_b == data.sided_cells.end()) return Common::none;
+    const auto [first_a, second_a] = of_a->second;
+    const auto [first_b, second_b] = of_b->second;
+    if (first_a == second_b || second_a == first_b) return Common::other_side;
+    return first_a == first_b || second_a == second_b ? Common::same_side : Common::none;
+}
+
+Means turned_round(Means means, const Interval& range) {
+    for (auto& [participant, value] : means) value = range.low + range.high - value;
+    return means;
 }
 
 MiddleTests compare_with(double middle, const std::vector<double>& scores) {
@@ -188,18 +205,23 @@ ScoreResult compute_question(const Dataset& data, std::size_t question) {
     }
     adjust(result.cells, &MiddleTests::t, &MiddleTests::t_holm_p);
     adjust(result.cells, &MiddleTests::ranks, &MiddleTests::ranks_holm_p);
+    bool overlap = false;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         for (std::size_t j = i + 1; j < cells.size(); ++j) {
             if (option_of(data, cells[i]) != option_of(data, cells[j])) continue;
-            result.pairs.push_back(compare(means[i], means[j]));
+            const Common common = common_condition(data, cells[i], cells[j]);
+            overlap |= common != Common::none;
+            const bool turned = common == Common::other_side;
+            result.pairs.push_back(
+                compare(means[i], turned ? turned_round(means[j], result.range) : means[j]));
             result.pairs.back().first = cells[i];
             result.pairs.back().second = cells[j];
+            result.pairs.back().turned = turned;
         }
     }
-    adjust(result.pairs, true, &CellPair::paired, &CellPair::paired_holm_p);
-    adjust(result.pairs, true, &CellPair::ranks, &CellPair::ranks_holm_p);
-    adjust(result.pairs, false, &CellPair::welch, &CellPair::welch_holm_p);
-    if (!option_of(data, cells.front()).empty()) return result;
+    adjust(result.pairs);
+    // Pairs of conditions that overlap are no levels of one factor, and would depend on which is named first.
+    if (overlap || !option_of(data, cells.front()).empty()) return result;
     const bool within = std::any_of(result.pairs.begin(), result.pairs.end(),
                                     [](const CellPair& pair) { return pair.both > 0; });
     if (!within) {

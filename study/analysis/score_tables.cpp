@@ -124,25 +124,30 @@ Table middle_wilcoxon_table(const TableSource& of) {
     return table;
 }
 
+// Turned round, so that both scores are over the condition that they share, or under it.
+std::string second_of(const CellPair& pair, const TableSource& of) {
+    return of.cell(pair.second) + (pair.turned ? " (turned round)" : "");
+}
+
 Table paired_table(const TableSource& of) {
     Table table{
         .id = "paired_t",
         .title = "Paired t",
         .note =
             "Of the scores of participants who rated both; d is the mean difference in its standard "
-            "deviations. Holm's p is adjusted for all pairs of the question. Takes participants as "
-            "independent and the mean of their differences as normal, as it is of many participants. A pair "
-            "about which all participants differ by the same has no t",
+            "deviations. Holm's p is adjusted for all pairs of the question, those of Welch's t too. Takes "
+            "participants as independent and the mean of their differences as normal, as it is of many participants. A "
+            "pair about which all participants differ by the same has no t",
         .columns = columns_of_t(
             {{"question", "question"}, {"first", "first"}, {"second", "second"}, {"n", "n", Show::whole}})};
     table.columns.push_back({"p_holm", "p (Holm)", Show::p});
     for (const ScoreResult& result : of.results.scores) {
         for (const CellPair& pair : result.pairs) {
             if (!pair.paired) continue;
-            Row row = {of.question(result.question), of.cell(pair.first), of.cell(pair.second),
+            Row row = {of.question(result.question), of.cell(pair.first), second_of(pair, of),
                        pair.paired->n_first};
             append(row, *pair.paired);
-            row.push_back(pair.paired_holm_p);
+            row.push_back(pair.t_holm_p);
             table.rows.push_back(std::move(row));
         }
     }
@@ -155,7 +160,7 @@ Table welch_table(const TableSource& of) {
         .title = "Welch's t",
         .note =
             "Of pairs that no participant rated both of: the groups are different people; d is over the root of "
-            "the mean variance. Holm's p is adjusted for all such pairs of the question",
+            "the mean variance. Holm's p is adjusted for all pairs of the question, those of the paired t too",
         .columns = columns_of_t({{"question", "question"},
                                  {"first", "first"},
                                  {"second", "second"},
@@ -165,10 +170,10 @@ Table welch_table(const TableSource& of) {
     for (const ScoreResult& result : of.results.scores) {
         for (const CellPair& pair : result.pairs) {
             if (!pair.welch) continue;
-            Row row = {of.question(result.question), of.cell(pair.first), of.cell(pair.second),
+            Row row = {of.question(result.question), of.cell(pair.first), second_of(pair, of),
                        pair.welch->n_first, pair.welch->n_second};
             append(row, *pair.welch);
-            row.push_back(pair.welch_holm_p);
+            row.push_back(pair.t_holm_p);
             table.rows.push_back(std::move(row));
         }
     }
@@ -194,7 +199,7 @@ Table wilcoxon_table(const TableSource& of) {
     for (const ScoreResult& result : of.results.scores) {
         for (const CellPair& pair : result.pairs) {
             if (!pair.ranks) continue;
-            table.rows.push_back({of.question(result.question), of.cell(pair.first), of.cell(pair.second),
+            table.rows.push_back({of.question(result.question), of.cell(pair.first), second_of(pair, of),
                                   pair.ranks->n, pair.ranks->same, pair.ranks->statistic,
                                   pair.ranks->exact ? "exact" : "normal", pair.ranks->p, pair.ranks_holm_p});
         }

@@ -60,7 +60,7 @@ RaterVotes rater_votes_of(const Ballot& ballot, int most) {
         strengths[vote.participant] += strength;
         ++votes[vote.participant];
     }
-    RaterVotes result{.p = sign_flip_test(balances)};
+    RaterVotes result{.p = sign_flip_test(balances, votes)};
     std::vector<double> shares, scores;
     for (std::size_t i = 0; i < balances.size(); ++i) {
         result.for_first += balances[i] > 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "study/measure/distributions.h"
@@ -95,6 +96,21 @@ double peak_between(const Function& function, double low, double high) {
     return std::max(at_a, at_b);
 }
 
+// Shares of votes as numbers of equal parts of one.
+std::vector<int> shares_in_parts(std::span<const int> balances, std::span<const int> votes) {
+    assert(balances.size() == votes.size());
+    constexpr double kMostWork = 4e7;  // ours: a tenth of a second
+    const auto raters = static_cast<double>(balances.size());
+    const auto most = std::max(1LL, static_cast<long long>(kMostWork / (raters * raters)));
+    long long parts = 1;
+    for (const int count : votes) parts = std::min(most, std::lcm(parts, static_cast<long long>(count)));
+    std::vector<int> shares;
+    for (std::size_t i = 0; i < balances.size(); ++i)
+        shares.push_back(
+            static_cast<int>(std::lround(1.0 * balances[i] * static_cast<double>(parts) / votes[i])));
+    return shares;
+}
+
 }  // namespace
 
 Interval exact_share_95(std::size_t k, std::size_t n) {
@@ -109,7 +125,8 @@ double exact_half_test(std::size_t k, std::size_t n) {
     return 2 * fewer == n ? 1 : std::min(1.0, 2 * binomial_at_most(fewer, n, 0.5));
 }
 
-double sign_flip_test(std::span<const int> balances) {
+double sign_flip_test(std::span<const int> given, std::span<const int> votes) {
+    const std::vector<int> balances = shares_in_parts(given, votes);
     std::size_t largest = 0;
     int observed = 0;
     for (const int balance : balances) {

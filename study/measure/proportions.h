@@ -16,11 +16,12 @@ Interval exact_share_95(std::size_t k, std::size_t n);
 // than k of n. 1 for n = 0.
 double exact_half_test(std::size_t k, std::size_t n);
 
-// Fisher's randomization test of signs, exact and two-sided: the chance that the sum of `balances` is at
-// least as far from 0 when each keeps its amount and its sign is drawn like a coin. A balance is what one
-// rater's votes for one thing are more than those for the other, so votes of one rater need not be
-// independent; with a vote for each rater it is exact_half_test. 1 where all are 0.
-double sign_flip_test(std::span<const int> balances);
+// Fisher's randomization test of signs, two-sided: the chance that the sum of balances[i] / votes[i] is at least as far
+// from 0 when each keeps its amount and its sign is drawn like a coin. A balance is what one rater's votes for one
+// thing are more than those for the other, so votes of one rater need not be independent, and who votes often counts no
+// more than others, as in the mean share; with a vote for each rater it is exact_half_test. Exact where the numbers of
+// votes have a small common multiple, else of shares that are rounded to 4e7 / N^2 parts. 1 where all are 0.
+double sign_flip_test(std::span<const int> balances, std::span<const int> votes);
 
 // Barnard, "Significance tests for 2 x 2 tables", 1947, two-sided, of k1 of n1 against k2 of n2: the largest
 // chance, over all shares that both might have, of tables whose Wald statistic with pooled variance is at

@@ -51,7 +51,7 @@ TEST(ComputeResults, ParticipantsAreTheUnitsOfScores) {
     EXPECT_EQ(score.cells[0].answers.n, 6u);
     EXPECT_DOUBLE_EQ(score.cells[0].participants.mean, 4);
     EXPECT_DOUBLE_EQ(*score.cells[0].participants.sd, 2);
-    EXPECT_EQ(score.pairs[0].paired_holm_p, score.pairs[0].paired->p);
+    EXPECT_EQ(score.pairs[0].t_holm_p, score.pairs[0].paired->p);
     // Differences 1, 2, 2: mean 5/3, sd 1/sqrt 3, t = 5.
     EXPECT_NEAR(score.pairs[0].paired->t, 5, 1e-12);
     EXPECT_EQ(score.pairs[0].paired->df, 2);
@@ -75,7 +75,7 @@ TEST(ComputeResults, HolmCountsPairsWhoseTestCouldNotBeMade) {
     const ScoreResult score = results_of(data).scores.at(0);
     ASSERT_EQ(score.pairs.size(), 3u);
     EXPECT_FALSE(score.pairs[2].paired);
-    EXPECT_NEAR(score.pairs[0].paired_holm_p, 3 * score.pairs[0].paired->p, 1e-12);
+    EXPECT_NEAR(score.pairs[0].t_holm_p, 3 * score.pairs[0].paired->p, 1e-12);
 }
 
 // Two cells that go from one condition to another: 1, 2 and 3 over the middle of a scale from 1 to 7, and 0, 0 and 0,
@@ -84,7 +84,7 @@ TEST(ComputeResults, HolmCountsEveryCellThatIsComparedWithTheMiddle) {
     Dataset data = two_raters();
     data.questions = {{.id = "better", .kind = QuestionKind::rating, .points = 7}};
     data.cells.insert(data.cells.end(), {"ours over baseline", "ours over third"});
-    data.sided_cells = {2, 3};
+    data.sided_cells = {{2, {0, 1}}, {3, {0, 2}}};
     for (std::size_t p = 0; p < 3; ++p) {
         data.scores.push_back({.participant = p, .cell = 2, .value = 5.0 + static_cast<double>(p)});
         data.scores.push_back({.participant = p, .cell = 3, .value = 4});
@@ -97,6 +97,41 @@ TEST(ComputeResults, HolmCountsEveryCellThatIsComparedWithTheMiddle) {
     EXPECT_NEAR(apart.ranks_holm_p, std::min(1.0, 2 * apart.ranks->p), 1e-12);
     EXPECT_FALSE(same.t || same.ranks);
     EXPECT_EQ(same.t_holm_p, 1);
+}
+
+// "a over b", "b over c" and "a over c" are what they are if the plan names b first.
+TEST(ComputeResults, ComparesPairsOfConditionsWhateverTheirOrder) {
+    const double given[3][3] = {{5, 6, 6}, {3, 4, 6}, {7, 6, 5}};
+    const auto scored = [&](std::vector<std::pair<std::size_t, std::size_t>> sides,
+                            std::set<std::size_t> turned) {
+        Dataset data = two_raters();
+        data.questions = {{.id = "better", .kind = QuestionKind::rating, .points = 7}};
+        for (std::size_t cell = 0; cell < 3; ++cell) {
+            data.cells.push_back(std::to_string(cell));
+            data.sided_cells[2 + cell] = sides[cell];
+            for (std::size_t p = 0; p < 3; ++p) {
+                const double value = turned.contains(cell) ? 8 - given[cell][p] : given[cell][p];
+                data.scores.push_back({.participant = p, .cell = 2 + cell, .value = value});
+            }
+        }
+        return results_of(data).scores.at(0);
+    };
+    const ScoreResult a_first = scored({{0, 1}, {1, 2}, {0, 2}}, {}),
+                      b_first = scored({{1, 0}, {1, 2}, {0, 2}}, {0});
+    for (const ScoreResult& result : {a_first, b_first}) {
+        EXPECT_FALSE(result.within) << "they are no levels of one factor";
+        ASSERT_EQ(result.pairs.size(), 3u);
+    }
+    EXPECT_TRUE(a_first.pairs[0].turned);
+    EXPECT_FALSE(b_first.pairs[0].turned);
+    // 5, 6, 6 of a over b and 5, 4, 2 of c over b.
+    EXPECT_NEAR(a_first.pairs[0].paired->difference, 2, 1e-12);
+    for (std::size_t pair = 0; pair < 3; ++pair) {
+        const CellPair &one = a_first.pairs[pair], &other = b_first.pairs[pair];
+        EXPECT_NEAR(std::abs(one.paired->difference), std::abs(other.paired->difference), 1e-12) << pair;
+        EXPECT_NEAR(one.t_holm_p, other.t_holm_p, 1e-12) << pair;
+        EXPECT_NEAR(one.ranks_holm_p, other.ranks_holm_p, 1e-12) << pair;
+    }
 }
 
 // Anna is ranked by 1, 2 and 2 lower for ours than for the baseline, Ben higher by as much: t is 5 and -5, and Holm
@@ -119,7 +154,7 @@ TEST(ComputeResults, ComparesARankedOptionWithItselfAlone) {
     EXPECT_EQ(score.pairs[1].second, 5u);
     EXPECT_NEAR(score.pairs[0].paired->t, 5, 1e-12);
     EXPECT_NEAR(score.pairs[1].paired->t, -5, 1e-12);
-    EXPECT_NEAR(score.pairs[0].paired_holm_p, 2 * score.pairs[0].paired->p, 1e-12);
+    EXPECT_NEAR(score.pairs[0].t_holm_p, 2 * score.pairs[0].paired->p, 1e-12);
     EXPECT_FALSE(score.anova || score.within);
 }
 
@@ -145,7 +180,7 @@ TEST(ComputeResults, CountsWinsSidesAndReasons) {
     EXPECT_EQ(pair.clear_wins, 2u);
     EXPECT_EQ(pair.ties, 1u);
     EXPECT_EQ(pair.losses, 1u);
-    // p-1 and p-3 lean to ours by 2 and 1 votes, p-2 to the baseline by 1; 2 + 1 - 1 is reached by 6 of 8
+    // p-1 and p-3 lean to ours by all of their votes, p-2 to the baseline by half; 1 + 1 - 0.5 is reached by 4 of 8
     // signs.
     EXPECT_EQ(pair.raters.for_first, 2u);
     EXPECT_EQ(pair.raters.for_second, 1u);
@@ -155,7 +190,7 @@ TEST(ComputeResults, CountsWinsSidesAndReasons) {
     EXPECT_NEAR(pair.raters.score, 1, 1e-12);
     EXPECT_EQ(pair.raters.score_95->low, -2);
     EXPECT_EQ(pair.raters.score_95->high, 2);
-    EXPECT_DOUBLE_EQ(pair.raters.p, 0.75);
+    EXPECT_DOUBLE_EQ(pair.raters.p, 0.5);
     // 4 + 2 + 1 + 4 of these and 1 + 2 for the other.
     EXPECT_DOUBLE_EQ(pair.share.share, 11.0 / 14);
     // Left won three times of four: ours twice clearly, never the baseline; right: ours once, the baseline

@@ -37,16 +37,31 @@ TEST(ExactHalfTest, CountsBothSides) {
 }
 
 TEST(SignFlipTest, IsTheTestOfOneHalfWithAVoteForEachRater) {
-    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{1, 1, 1, 1, 1}), exact_half_test(5, 5));
-    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{1, 1, -1, 1, 0, 1, 1}), exact_half_test(5, 6));
+    const std::vector<int> once(7, 1);
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{1, 1, 1, 1, 1}, std::span(once).first(5)),
+                     exact_half_test(5, 5));
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{1, 1, -1, 1, 0, 1, 1}, once), exact_half_test(5, 6));
 }
 
 // Of the eight ways to draw the signs of 3, 2 and 1 four give a sum of 4 or more on either side.
 TEST(SignFlipTest, CountsRatersAndNotTheirVotes) {
-    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{3, 2, -1}), 4.0 / 8);
-    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{30}), 1);
-    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{5, -5}), 1);
-    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{}), 1);
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{3, 2, -1}, std::vector<int>{3, 3, 3}), 4.0 / 8);
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{30}, std::vector<int>{40}), 1);
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{5, -5}, std::vector<int>{5, 5}), 1);
+    EXPECT_DOUBLE_EQ(sign_flip_test(std::vector<int>{}, std::vector<int>{}), 1);
+}
+
+// Of the sixteen sums of .4, 1, 1 and 1 two on either side are at least 2.6; by votes 4 and -3 would be for the first.
+TEST(SignFlipTest, WhoVotesOftenCountsNoMore) {
+    const std::vector<int> balances = {4, -1, -1, -1}, votes = {10, 1, 1, 1};
+    EXPECT_DOUBLE_EQ(sign_flip_test(balances, votes), 4.0 / 16);
+    // A common multiple of many parts is rounded.
+    std::vector<int> many, of_primes;
+    for (const int prime : {101, 103, 107, 109, 113, 127, 131, 137, 139, 149}) {
+        many.push_back(prime);
+        of_primes.push_back(prime);
+    }
+    EXPECT_DOUBLE_EQ(sign_flip_test(many, of_primes), exact_half_test(10, 10));
 }
 
 TEST(BarnardExact, AgreesWithExactFractions) {
