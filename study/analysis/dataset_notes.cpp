@@ -1,6 +1,7 @@
 #include "study/analysis/dataset_notes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/text.h"
@@ -9,7 +10,8 @@
 namespace chironomia::study::analysis {
 namespace {
 
-// The item whose answers go against the others most: often one that was not said to be reversed.
+// The item whose answers go against the others most: often one that was not said to be reversed. Its correlation with
+// the sum of the others must be below 0 by two standard errors, as a few answers go against each other by chance.
 void note_contrary_item(Dataset& data, std::size_t index) {
     const Scale& scale = data.scales[index];
     const std::size_t question = data.first_scale() + index;
@@ -17,23 +19,30 @@ void note_contrary_item(Dataset& data, std::size_t index) {
     for (const ScaleAnswer& answer : data.scale_answers) {
         if (answer.question == question) answers.push_back(answer.items);
     }
-    double lowest = 0;
+    const auto n = static_cast<double>(answers.size());
+    double lowest = -2 / std::sqrt(n);
+    bool is_any = false;
     std::size_t contrary = 0;
     for (std::size_t i = 0; i < scale.items.size(); ++i) {
-        double sum = 0, of_rest = 0, products = 0;
+        double sum = 0, of_rest = 0, products = 0, squares = 0, squares_of_rest = 0;
         for (const std::vector<double>& items : answers) {
             const double rest = std::accumulate(items.begin(), items.end(), -items[i]);
             sum += items[i];
             of_rest += rest;
             products += items[i] * rest;
+            squares += items[i] * items[i];
+            squares_of_rest += rest * rest;
         }
-        const double covariance = static_cast<double>(answers.size()) * products - sum * of_rest;
-        if (covariance >= lowest) continue;
-        lowest = covariance;
+        const double correlation =
+            (n * products - sum * of_rest) /
+            std::sqrt((n * squares - sum * sum) * (n * squares_of_rest - of_rest * of_rest));
+        if (!(correlation < lowest)) continue;
+        lowest = correlation;
         contrary = scale.items[i];
+        is_any = true;
     }
     const std::size_t asked = data.index_of(contrary, data.passes_of_scales[index].value_or(0));
-    if (lowest < 0)
+    if (is_any)
         data.notes.push_back(format(
             "Scale {}: answers to \"{}\" go against those to the other items; check which items are reversed "
             "(\"scales\" in private/key.json).",
