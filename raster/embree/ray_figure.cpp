@@ -11,9 +11,10 @@ namespace chironomia {
 namespace {
 
 // As shadow_caster_of.
-Stops stops_of(const Surface& surface, const Material& material) {
-    if (material.alpha_mode == AlphaMode::blend || (material.unlit && surface.skin < 0)) return Stops::sight;
-    return material.alpha_mode == AlphaMode::mask ? Stops::part : Stops::all;
+Opacity opacity_of(const Surface& surface, const Material& material) {
+    if (material.alpha_mode == AlphaMode::blend || (material.unlit && surface.skin < 0))
+        return Opacity::camera_only;
+    return material.alpha_mode == AlphaMode::mask ? Opacity::masked : Opacity::opaque;
 }
 
 // Texture coordinates per metre along a side of the triangle; a triangle without area shows one point.
@@ -58,17 +59,17 @@ RayFigure::RayFigure(const Avatar& avatar) {
     rest = moment_of(rest_mesh(avatar));
     moments = {rest};
 
-    for (size_t stops = 0; stops < kStops; ++stops) {
-        first_of[stops] = static_cast<std::uint32_t>(material_of.size());
+    for (size_t opacity = 0; opacity < kOpacities; ++opacity) {
+        first_of[opacity] = static_cast<std::uint32_t>(material_of.size());
         for (size_t s = 0; s < avatar.surfaces.size(); ++s) {
             const Surface& surface = avatar.surfaces[s];
-            if (static_cast<size_t>(stops_of(surface, materials[s].material)) != stops) continue;
+            if (static_cast<size_t>(opacity_of(surface, materials[s].material)) != opacity) continue;
             for (const std::uint32_t vertex : surface.triangles)
                 triangles.push_back(first_vertex[s] + vertex);
             material_of.resize(triangles.size() / 3, static_cast<std::uint32_t>(s));
         }
     }
-    first_of[kStops] = static_cast<std::uint32_t>(material_of.size());
+    first_of[kOpacities] = static_cast<std::uint32_t>(material_of.size());
 
     const std::vector<Vec3>& positions = rest.positions;
     for (size_t i = 0; i + 2 < triangles.size(); i += 3) {

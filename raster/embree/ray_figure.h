@@ -15,14 +15,14 @@
 
 namespace chironomia {
 
-// How triangles stop rays; those of one kind follow each other in RayFigure::triangles.
-enum class Stops {
-    all,     // solid: light and sight
-    part,    // cut out by the alpha of a texture: both, where it is there
-    sight,   // blended, or unlit without a skin: seen, but throws no shadow
-    nothing  // one past the last
+// Which rays triangles stop; those of one kind follow each other in RayFigure::triangles.
+enum class Opacity {
+    opaque,       // camera rays and shadow rays
+    masked,       // both where the alpha of a texture does not cut the surface out
+    camera_only,  // blended, or unlit without a skin: seen, but casts no shadow
+    count
 };
-inline constexpr size_t kStops = static_cast<size_t>(Stops::nothing);
+inline constexpr size_t kOpacities = static_cast<size_t>(Opacity::count);
 
 struct RayMaterial {
     Material material;
@@ -66,9 +66,9 @@ struct RayFigure {
         return log2_width + log2_uv_per_metre[triangle];
     }
 
-    std::vector<std::uint32_t> triangles;              // (F, 3)
-    std::array<std::uint32_t, kStops + 1> first_of{};  // by Stops: where its triangles begin
-    std::vector<std::uint32_t> material_of;            // (F)
+    std::vector<std::uint32_t> triangles;                  // (F, 3)
+    std::array<std::uint32_t, kOpacities + 1> first_of{};  // by Opacity: its first triangle
+    std::vector<std::uint32_t> material_of;                // (F)
     std::vector<float> log2_uv_per_metre;  // (F) how large the texture is drawn, in the rest shape
     std::vector<RayMaterial> materials;    // one per surface
     std::vector<Vec2> uvs;                 // (V), zero where a surface has none

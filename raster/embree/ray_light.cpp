@@ -145,7 +145,7 @@ Lanes<Vec3> RayLight::seen(const Lanes<LitPoint>& points, LaneMask active) const
         const SurfacePoint& surface = points[lane].surface;
         shaded[lane] = {.normal = surface.normal,
                         .towards_eye = points[lane].towards_eye,
-                        .mirror = shading::mirror_of(Vec3(surface.base), surface.metal, surface.reflectance),
+                        .f0 = shading::f0_of(Vec3(surface.base), surface.metal, surface.reflectance),
                         .rough = surface.rough,
                         .ambient_occlusion = unoccluded[lane] * surface.occlusion,
                         .scatter = surface.scatter,
@@ -153,7 +153,7 @@ Lanes<Vec3> RayLight::seen(const Lanes<LitPoint>& points, LaneMask active) const
                         .coat_rough = surface.coat_rough,
                         .anisotropy = surface.anisotropy,
                         .along = surface.rough_along};
-        lit[lane] = shading::light_from_everywhere(shaded[lane], scene_.sky, scene_.ground);
+        lit[lane] = shading::ambient_light(shaded[lane], scene_.sky, scene_.ground);
     }
     for (size_t i = 0; i < scene_.lights.size(); ++i) {
         const Light& light = scene_.lights[i];
@@ -178,7 +178,7 @@ Lanes<Vec3> RayLight::seen(const Lanes<LitPoint>& points, LaneMask active) const
     return colours;
 }
 
-Lanes<float> RayLight::left_of_floor(const Lanes<FloorPoint>& points, LaneMask active) const {
+Lanes<float> RayLight::floor_light_share(const Lanes<FloorPoint>& points, LaneMask active) const {
     Lanes<float> left;
     left.fill(1);
     const auto take = [&](float share, const Lanes<Vec3>& directions, const Lanes<float>& reach) {

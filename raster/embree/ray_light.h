@@ -23,7 +23,7 @@ struct LitPoint {
     SampleNumber sample;
 };
 
-// How much darker the floor is for the shadow on it.
+// A point of the floor that may lie in shadow.
 struct FloorPoint {
     Vec3 position{0};
     float moment = 0;
@@ -38,9 +38,9 @@ class RayLight {
 
     // Linear, not yet tone mapped; of the lanes in `active`.
     Lanes<Vec3> seen(const Lanes<LitPoint>& points, LaneMask active) const;
-    // The part of the floor's colour that stays, as raster/studio/floor_shadow.h darkens it: by the lights
-    // that cast shadows, and near the floor by what hides the sky.
-    Lanes<float> left_of_floor(const Lanes<FloorPoint>& points, LaneMask active) const;
+    // The share of the floor's light that arrives, in [0, 1], as in raster/studio/floor_shadow.h: the lights that cast
+    // shadows are occluded, and near the floor the sky.
+    Lanes<float> floor_light_share(const Lanes<FloorPoint>& points, LaneMask active) const;
 
   private:
     Lanes<float> ambient_occlusion(const Lanes<LitPoint>& points, LaneMask active) const;

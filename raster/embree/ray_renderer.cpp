@@ -380,7 +380,7 @@ void RayRenderer::add_emptiness(Block& block, const BlockSample& sample, const L
     }
     Lanes<float> left;
     left.fill(1);
-    if (in_shadow != 0) left = light_.left_of_floor(points, in_shadow);
+    if (in_shadow != 0) left = light_.floor_light_share(points, in_shadow);
     for (size_t i = 0; i < kLanes; ++i) block[i].floor_left += empty[i] * left[i];
 }
 

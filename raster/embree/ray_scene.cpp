@@ -12,7 +12,7 @@ namespace chironomia {
 namespace {
 
 constexpr std::uint32_t kSight = 1, kLight = 2;  // ray masks
-constexpr std::uint32_t kMasks[kStops] = {kSight | kLight, kSight | kLight, kSight};
+constexpr std::uint32_t kMasks[kOpacities] = {kSight | kLight, kSight | kLight, kSight};
 
 // One thread builds and refits, so that the order of triangles never depends on the machine. AVX2 at most:
 // the last digits of a hit are the same on machines with AVX-512.
@@ -104,22 +104,22 @@ struct alignas(32) Valid {
 struct RayScene::Parts {
     Parts(const RayFigure& figure_);
     void build();
-    void attach(size_t stops);
+    void attach(size_t opacity);
     void place(std::span<const RayMoment> moments, RTCBuildQuality quality);
 
     const RayFigure& figure;
     Device device;
     EmbreeScene scene;
-    std::array<Group, kStops> groups;
-    std::array<Geometry, kStops> geometries;  // null: no such triangles
+    std::array<Group, kOpacities> groups;
+    std::array<Geometry, kOpacities> geometries;  // null: no such triangles
     size_t moment_count = 0;
 };
 
 RayScene::Parts::Parts(const RayFigure& figure_) : figure(figure_), device(open_device()) {
-    for (size_t stops = 0; stops < kStops; ++stops) {
-        Group& group = groups[stops];
-        group = {.figure = &figure, .first = figure.first_of[stops]};
-        for (std::uint32_t i = group.first; i < figure.first_of[stops + 1]; ++i) {
+    for (size_t opacity = 0; opacity < kOpacities; ++opacity) {
+        Group& group = groups[opacity];
+        group = {.figure = &figure, .first = figure.first_of[opacity]};
+        for (std::uint32_t i = group.first; i < figure.first_of[opacity + 1]; ++i) {
             const Material& material = figure.material_at(i).material;
             group.has_single_sided |= !material.double_sided;
             group.has_cut_outs |= material.alpha_mode == AlphaMode::mask;
@@ -134,26 +134,26 @@ void RayScene::Parts::build() {
     scene.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(scene.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
     moment_count = figure.moments.size();
-    for (size_t stops = 0; stops < kStops; ++stops) attach(stops);
+    for (size_t opacity = 0; opacity < kOpacities; ++opacity) attach(opacity);
     // Always from the same pose, so that the trees, and ties in them, do not depend on the first frame.
     if (moment_count == 1) place(std::span(&figure.rest, 1), RTC_BUILD_QUALITY_MEDIUM);
 }
 
-void RayScene::Parts::attach(size_t stops) {
-    const size_t count = figure.first_of[stops + 1] - figure.first_of[stops];
+void RayScene::Parts::attach(size_t opacity) {
+    const size_t count = figure.first_of[opacity + 1] - figure.first_of[opacity];
     if (count == 0) return;
-    geometries[stops].reset(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-    RTCGeometryTy* geometry = geometries[stops].get();
+    geometries[opacity].reset(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    RTCGeometryTy* geometry = geometries[opacity].get();
     rtcSetGeometryTimeStepCount(geometry, static_cast<unsigned>(moment_count));
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               figure.triangles.data() + 3 * static_cast<size_t>(groups[stops].first), 0,
+                               figure.triangles.data() + 3 * static_cast<size_t>(groups[opacity].first), 0,
                                3 * sizeof(std::uint32_t), count);
-    rtcSetGeometryMask(geometry, kMasks[stops]);
-    rtcSetGeometryUserData(geometry, &groups[stops]);
-    if (groups[stops].has_single_sided || groups[stops].has_cut_outs)
+    rtcSetGeometryMask(geometry, kMasks[opacity]);
+    rtcSetGeometryUserData(geometry, &groups[opacity]);
+    if (groups[opacity].has_single_sided || groups[opacity].has_cut_outs)
         rtcSetGeometryIntersectFilterFunction(geometry, filter_sight);
-    if (groups[stops].has_cut_outs) rtcSetGeometryOccludedFilterFunction(geometry, filter_light);
-    rtcAttachGeometryByID(scene.get(), geometry, static_cast<unsigned>(stops));
+    if (groups[opacity].has_cut_outs) rtcSetGeometryOccludedFilterFunction(geometry, filter_light);
+    rtcAttachGeometryByID(scene.get(), geometry, static_cast<unsigned>(opacity));
 }
 
 void RayScene::Parts::place(std::span<const RayMoment> moments, RTCBuildQuality quality) {

@@ -43,7 +43,7 @@ class RayScene {
     // The first surface that is seen: fronts, both sides of double-sided ones, and not what alpha cuts out.
     // May be called from several threads, as hidden().
     HitPack nearest(const RayPack& pack) const;
-    // The rays that something keeps the light from.
+    // The occluded rays.
     LaneMask hidden(const RayPack& pack) const;
 
   private:

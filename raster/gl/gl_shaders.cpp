@@ -43,14 +43,14 @@ uniform float anisotropy_turn;
 const float anisotropy = 0.0;
 #endif
 
-ShadedPoint point_at(vec3 position, vec3 normal, vec3 mirror, float rough) {
-    return ShadedPoint(normal, normalize(eye - position), mirror, clamp(rough, 0.2, 1.0), 1.0,
+ShadedPoint point_at(vec3 position, vec3 normal, vec3 f0, float rough) {
+    return ShadedPoint(normal, normalize(eye - position), f0, clamp(rough, 0.2, 1.0), 1.0,
                        scatter, coat, coat_roughness, anisotropy, normal);
 }
 
 // `visible`: part of the first light that arrives.
 Lit light_on(ShadedPoint point, float visible) {
-    Lit lit = light_from_everywhere(point, sky, ground);
+    Lit lit = ambient_light(point, sky, ground);
 #if LIGHTS > 0
     for (int i = 0; i < LIGHTS; ++i) {
         Illuminant light = Illuminant(light_towards[i], light_radiance[i], light_wrap[i], light_size[i]);
@@ -85,15 +85,15 @@ uniform vec3 emissive;
 out vec3 shown;
 #elif defined(PER_VERTEX)
 out vec3 lit_diffuse;
-out vec3 lit_mirrored;
-#ifdef TWO_FACED
+out vec3 lit_specular;
+#ifdef LIT_ON_BOTH_SIDES
 out vec3 lit_diffuse_behind;
-out vec3 lit_mirrored_behind;
+out vec3 lit_specular_behind;
 #endif
 #endif
 #ifdef PIXEL_SHADOW
 out vec3 key_diffuse;  // what the first light adds where it is not hidden
-out vec3 key_mirrored;
+out vec3 key_specular;
 #endif
 #ifdef SURFACE
 out vec3 world_position;
@@ -127,7 +127,7 @@ void main() {
     Lit lit = light_on(point, 0.0);
     Lit unhidden = light_on(point, 1.0);
     key_diffuse = unhidden.diffuse - lit.diffuse;
-    key_mirrored = unhidden.mirrored - lit.mirrored;
+    key_specular = unhidden.specular - lit.specular;
 #else
     Lit lit = light_on(point, shadow.x);
 #endif
@@ -135,12 +135,12 @@ void main() {
     shown = encoded_srgb(neutral_tone(seen(base_colour.rgb, 0.0, lit, emissive)));
 #else
     lit_diffuse = lit.diffuse;
-    lit_mirrored = lit.mirrored;
-#ifdef TWO_FACED
+    lit_specular = lit.specular;
+#ifdef LIT_ON_BOTH_SIDES
     point.normal = -point.normal;
     Lit behind = light_on(point, shadow.x);
     lit_diffuse_behind = behind.diffuse;
-    lit_mirrored_behind = behind.mirrored;
+    lit_specular_behind = behind.specular;
 #endif
 #endif
 #endif
@@ -172,15 +172,15 @@ constexpr const char* kFragmentShader = R"(
 in vec3 shown;
 #elif defined(PER_VERTEX)
 in vec3 lit_diffuse;
-in vec3 lit_mirrored;
-#ifdef TWO_FACED
+in vec3 lit_specular;
+#ifdef LIT_ON_BOTH_SIDES
 in vec3 lit_diffuse_behind;
-in vec3 lit_mirrored_behind;
+in vec3 lit_specular_behind;
 #endif
 #endif
 #ifdef PIXEL_SHADOW
 in vec3 key_diffuse;
-in vec3 key_mirrored;
+in vec3 key_specular;
 #endif
 #ifdef SURFACE
 in vec3 world_position;
@@ -294,16 +294,16 @@ void main() {
 #elif defined(UNLIT)
     result = vec4(encoded_srgb(base.rgb) * alpha, alpha);
 #elif defined(PER_VERTEX)
-    Lit lit = Lit(lit_diffuse, lit_mirrored);
+    Lit lit = Lit(lit_diffuse, lit_specular);
 #ifdef PIXEL_SHADOW
     float visible = visibility(normalize(world_normal.xyz));
-    lit = sum_of(lit, Lit(visible * key_diffuse, visible * key_mirrored));
+    lit = sum_of(lit, Lit(visible * key_diffuse, visible * key_specular));
 #endif
-#ifdef TWO_FACED
-    if (!gl_FrontFacing) lit = Lit(lit_diffuse_behind, lit_mirrored_behind);
+#ifdef LIT_ON_BOTH_SIDES
+    if (!gl_FrontFacing) lit = Lit(lit_diffuse_behind, lit_specular_behind);
 #endif
     vec3 colour = seen(base.rgb, 0.0, lit, glow);
-#if defined(DOUBLE_SIDED) && !defined(TWO_FACED)
+#if defined(DOUBLE_SIDED) && !defined(LIT_ON_BOTH_SIDES)
     if (!gl_FrontFacing) colour *= 0.5;  // the inside of a sleeve or collar
 #endif
     result = vec4(encoded_srgb(neutral_tone(colour)) * alpha, alpha);
@@ -333,7 +333,7 @@ void main() {
 #ifdef SHADOW
     visible = visibility(normal);
 #endif
-    ShadedPoint point = point_at(world_position, normal, mirror_of(base.rgb, metal, reflectance), rough);
+    ShadedPoint point = point_at(world_position, normal, f0_of(base.rgb, metal, reflectance), rough);
     point.ambient_occlusion = ambient_occlusion;
 #ifdef ANISOTROPIC
     vec2 turn = vec2(cos(anisotropy_turn), sin(anisotropy_turn));
@@ -376,7 +376,7 @@ std::string defines(const SurfaceFeatures& features, int samples) {
         {"UNLIT", features.unlit},
         {"CUT_OUT", features.cut_out},
         {"MANY_SAMPLES", features.cut_out && samples > 1},
-        {"TWO_FACED", features.two_faced()},
+        {"LIT_ON_BOTH_SIDES", features.lit_on_both_sides()},
         {"TRANSLUCENT", features.translucent},
         {"DOUBLE_SIDED", features.double_sided},
     };

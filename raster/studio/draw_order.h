@@ -22,7 +22,7 @@ std::vector<std::uint32_t> triangles_from_behind(std::span<const std::uint32_t> 
 
 // A cut edge takes some of the four samples of a pixel, in one of four orders; this is the order of each vertex, (V) in
 // 0 to 3. Pieces of triangles that hang together share one, and the next piece has the next: strands of hair over
-// strands take different samples, and hide together what each of them leaves.
+// strands take different samples, and together cover all samples.
 inline constexpr int kSampleOrders = 4;
 std::vector<std::uint8_t> sample_orders(const Surface& surface);
 

@@ -56,7 +56,7 @@ struct SurfaceFeatures {
         return per_vertex && !pixel_shadow && !textured() && !vertex_colour && !translucent && !cut_out;
     }
     // Lit at the vertices for both of its sides.
-    bool two_faced() const { return cut_out && double_sided; }
+    bool lit_on_both_sides() const { return cut_out && double_sided; }
 
     auto operator<=>(const SurfaceFeatures&) const = default;
 };

@@ -19,7 +19,7 @@ struct Penumbra {
     float spread = 0.1f;   // radius per metre between caster and receiver
     float least = 0.004f;  // radius of the sharpest edge [m]
     float most = 0.08f;    // radius of the softest edge [m]
-    float around = 0;      // a vertex also takes its radius from shadows that end so near beside it [m]
+    float around = 0;      // search margin round the vertex [m]
 };
 
 struct VertexShadow {

@@ -1,8 +1,8 @@
 // Soft shadows at vertices. Included after wide.inl.
 
-// Places that may lie in shadow, in the grid of the map: x, y in texels, depth in [0, 1], and how the depth of the
-// surface's plane changes per texel.
-struct Takers {
+// Receivers of the shadow: places that may lie in it, in the grid of the map: x, y in texels, depth in [0, 1], and how
+// the depth of the surface's plane changes per texel.
+struct Receivers {
     Float x, y, depth, slope_x, slope_y;
 };
 
@@ -20,7 +20,7 @@ struct WideShadow {
           towards(map.towards),
           bias(map.texel / map.range) {}
 
-    HWY_INLINE Takers takers_at(const vec3& position, const vec3& normal, Float lit) const {
+    HWY_INLINE Receivers receivers_at(const vec3& position, const vec3& normal, Float lit) const {
         const vec3 place = position + normal * Float(map.off_surface());
         const Float per_depth = Float(map.texel) / (Float(map.range) * max(lit, 0.1f));
         return {(dot(right, place) - Float(map.left)) / Float(map.texel),
@@ -30,9 +30,9 @@ struct WideShadow {
     }
 
     // How far the surface's planes lie under what the map shows at texels, in depth; negative where they are on top.
-    HWY_INLINE Float under(const Takers& takers, IntLanes x, IntLanes y) const {
-        const Float plane = takers.depth + takers.slope_x * (to_float(x) + Float(0.5f) - takers.x) +
-                            takers.slope_y * (to_float(y) + Float(0.5f) - takers.y);
+    HWY_INLINE Float under(const Receivers& receivers, IntLanes x, IntLanes y) const {
+        const Float plane = receivers.depth + receivers.slope_x * (to_float(x) + Float(0.5f) - receivers.x) +
+                            receivers.slope_y * (to_float(y) + Float(0.5f) - receivers.y);
         const IntLanes zero = whole(0), last = whole(map.side - 1);
         x = hn::Max(zero, hn::Min(x, last));
         y = hn::Max(zero, hn::Min(y, last));
@@ -46,14 +46,14 @@ struct WideShadow {
         return clamp(height * Float(penumbra.spread), penumbra.least, penumbra.most);
     }
 
-    // Above the takers [m]; negative where nothing there can shade them.
-    HWY_INLINE Float mean_height_of_casters(const Takers& takers) const {
+    // Above the receivers [m]; negative where nothing there can shade them.
+    HWY_INLINE Float mean_height_of_casters(const Receivers& receivers) const {
         constexpr float kBulge = 0.3f;  // height over distance
         const float around = search.penumbra.around;
         Float sum = 0.0f, count = 0.0f;
         for (const ShadowTap& tap : search.taps) {
-            const Float depth =
-                under(takers, to_int(takers.x + Float(tap.step.x)), to_int(takers.y + Float(tap.step.y)));
+            const Float depth = under(receivers, to_int(receivers.x + Float(tap.step.x)),
+                                      to_int(receivers.y + Float(tap.step.y)));
             Mask casts = depth > bias;
             if (!casts) continue;
             const Float height = depth * Float(map.range);
@@ -67,15 +67,15 @@ struct WideShadow {
     }
 
     // The lit part of a disc, each tap smooth between the texels around it.
-    HWY_INLINE Float filtered(const Takers& takers, Float radius) const {
+    HWY_INLINE Float filtered(const Receivers& receivers, Float radius) const {
         Float sum = 0.0f;
         for (const Vec2& point : search.filter) {
-            const Float x = takers.x + Float(point.x) * radius - Float(0.5f);
-            const Float y = takers.y + Float(point.y) * radius - Float(0.5f);
+            const Float x = receivers.x + Float(point.x) * radius - Float(0.5f);
+            const Float y = receivers.y + Float(point.y) * radius - Float(0.5f);
             const Float left = floor(x), bottom = floor(y);
             const IntLanes column = to_int(left), row = to_int(bottom);
             const auto lit = [&](int i, int j) {
-                const Float depth = under(takers, hn::Add(column, whole(i)), hn::Add(row, whole(j)));
+                const Float depth = under(receivers, hn::Add(column, whole(i)), hn::Add(row, whole(j)));
                 return mix(0.0f, 1.0f, depth <= bias);
             };
             const Float at_low = lit(0, 0), at_high = lit(0, 1);
@@ -115,12 +115,12 @@ void ShadowVertices(const VertexShadowSearch& search, const PosedSurface& surfac
         store(0.0f, radius);
         if (lit > Float(0.0f)) {
             const vec3 position(load(numbers[0]), load(numbers[1]), load(numbers[2]));
-            const Takers takers = shadow.takers_at(position, normal, lit);
-            const Float height = shadow.mean_height_of_casters(takers);
+            const Receivers receivers = shadow.receivers_at(position, normal, lit);
+            const Float height = shadow.mean_height_of_casters(receivers);
             const Mask shaded = (lit > Float(0.0f)) & (height >= Float(0.0f));
             if (shaded) {
                 const Float wide = shadow.radius_under(height);
-                store(mix(1.0f, shadow.filtered(takers, wide / Float(shadow.map.texel)), shaded), visible);
+                store(mix(1.0f, shadow.filtered(receivers, wide / Float(shadow.map.texel)), shaded), visible);
                 store(mix(0.0f, wide, shaded), radius);
             }
         }

@@ -52,9 +52,9 @@ struct TileImage {
     const std::uint32_t* texels = nullptr;  // of all levels, one after the other; nullptr: no texture
     const std::int32_t* starts = nullptr;   // (levels) where each level begins
     int levels = 0;
-    int width = 0, height = 0;  // of the first level; each further one is half as large, rounded down
-    int bits = 8;               // of a channel; red lowest
-    bool is_squared = false;    // colours are stored as their root
+    int width = 0, height = 0;     // of the first level; each further one is half as large, rounded down
+    int bits = 8;                  // of a channel; red lowest
+    bool is_sqrt_encoded = false;  // colours are stored as their square roots
     bool smooth = true;
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
 };
@@ -74,10 +74,11 @@ struct TileSurface {
     PixelShadow pixel_shadow;
     // Light that is worked out at the vertices. For a finished surface `diffuse` is the colour, in sRGB.
     Vec3* diffuse = nullptr;
-    Vec3* mirrored = nullptr;
-    // Of a two-faced surface: on its other side. Of one with shadow at the pixels: what the first light adds.
+    Vec3* specular = nullptr;
+    // Of a surface that is lit on both sides: on its other side. Of one with shadow at the pixels: what the first light
+    // adds.
     Vec3* more_diffuse = nullptr;
-    Vec3* more_mirrored = nullptr;
+    Vec3* more_specular = nullptr;
 };
 
 struct TileLights {
@@ -102,7 +103,7 @@ struct Tile {
     alignas(64) std::uint32_t triangle[kTileSamples][kTilePixels];  // 1 + place in the tile's list; 0: none
     alignas(64) std::uint32_t colour[kTileSamples][kTilePixels];    // RGBA8, sRGB multiplied by alpha
     float block_near[kBlocks];  // no sample of the block is further away [1/m]
-    int drawn[kBlocks];         // triangles since that was found
+    int drawn[kBlocks];         // triangles drawn since block_near was updated
     int x = 0, y = 0;           // of its first pixel
 };
 
@@ -125,9 +126,9 @@ struct alignas(64) TileItems {
     float ambient_occlusion[kRoom];
     float shadow[2][kRoom];  // VertexShadow
     float diffuse[3][kRoom];
-    float mirrored[3][kRoom];
+    float specular[3][kRoom];
     float more_diffuse[3][kRoom];
-    float more_mirrored[3][kRoom];
+    float more_specular[3][kRoom];
     std::uint32_t result[kRoom];  // RGBA8, sRGB multiplied by alpha
 };
 

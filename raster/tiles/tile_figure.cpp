@@ -66,7 +66,7 @@ TileFigure::TileFigure(const Avatar& avatar, const FigureLight& light, const Til
         const size_t count = surface.positions.size();
         const std::vector<Vec3> room(features.per_vertex ? count : 0);
         const std::vector<Vec3> more_room(
-            features.pixel_shadow || features.two_faced() ? room : std::vector<Vec3>{});
+            features.pixel_shadow || features.lit_on_both_sides() ? room : std::vector<Vec3>{});
         parts_.push_back(
             {.corners = surface.triangles,
              .uvs = surface.uvs,
@@ -74,9 +74,9 @@ TileFigure::TileFigure(const Avatar& avatar, const FigureLight& light, const Til
              .sample_orders = features.cut_out ? sample_orders(surface) : std::vector<std::uint8_t>{},
              .shadows = std::vector<VertexShadow>(count, light.shadow_at_pixels()),
              .diffuse = room,
-             .mirrored = room,
+             .specular = room,
              .more_diffuse = more_room,
-             .more_mirrored = more_room,
+             .more_specular = more_room,
              .vertices = std::vector<TileVertex>(count)});
         const auto image = [&](bool wanted, const Texture& texture, ImageUse use, float cutoff = 0) {
             return wanted ? textures.add(avatar.images, texture, use, cutoff) : TileImage{};
@@ -143,9 +143,9 @@ void TileFigure::light_part(size_t index, const PosedSurface& posed, const Depth
     surface.shadows = part.shadows.data();
     surface.sample_orders = part.sample_orders.data();
     surface.diffuse = part.diffuse.data();
-    surface.mirrored = part.mirrored.data();
+    surface.specular = part.specular.data();
     surface.more_diffuse = part.more_diffuse.data();
-    surface.more_mirrored = part.more_mirrored.data();
+    surface.more_specular = part.more_specular.data();
     if (!lit.features.per_vertex) return;
     const std::span<const std::uint32_t> seen = part.seen;
     share_stretches(seen.size(), kVerticesAtOnce, threads, [&](size_t first, size_t last) {

@@ -37,7 +37,7 @@ class TileFigure {
         std::vector<Vec4> colours;
         std::vector<std::uint8_t> sample_orders;  // (V), of what is cut out
         std::vector<VertexShadow> shadows;        // (V)
-        std::vector<Vec3> diffuse, mirrored, more_diffuse, more_mirrored;
+        std::vector<Vec3> diffuse, specular, more_diffuse, more_specular;
         std::vector<TileVertex> vertices;  // (V)
         std::vector<std::uint32_t> seen;   // vertices of triangles that may be seen
     };

@@ -91,7 +91,7 @@ TileImage TileTextures::add(const std::vector<Image>& images, const Texture& tex
             .width = image.width,
             .height = image.height,
             .bits = levels.bits,
-            .is_squared = use != ImageUse::data,
+            .is_sqrt_encoded = use != ImageUse::data,
             .smooth = texture.smooth,
             .wrap_u = texture.wrap_u,
             .wrap_v = texture.wrap_v};

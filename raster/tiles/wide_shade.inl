@@ -58,7 +58,7 @@ HWY_INLINE Lit light_of(const TileLights::One& one, const ShadedPoint& point, bo
 // From everywhere and from all lights but the first.
 HWY_INLINE Lit further_light(const TileLights& lights, const SurfaceFeatures& features,
                              const ShadedPoint& point) {
-    Lit lit = light_from_everywhere(point, vec3(lights.sky), vec3(lights.ground));
+    Lit lit = ambient_light(point, vec3(lights.sky), vec3(lights.ground));
     for (int i = 1; i < features.lights; ++i)
         lit = sum_of(lit, light_of(lights.lights[i], point, false, 1.0f));
     return lit;
@@ -95,19 +95,19 @@ void LightVertices(const TileSurface& surface, const TileLights& lights,
         if (features.pixel_shadow) {
             const Lit unhidden = light_on(lights, features, point, 1.0f);
             some.store(unhidden.diffuse - lit.diffuse, surface.more_diffuse);
-            some.store(unhidden.mirrored - lit.mirrored, surface.more_mirrored);
+            some.store(unhidden.specular - lit.specular, surface.more_specular);
         }
         if (features.finished()) {
             const vec3 base(Vec3(material.base_colour));
             lit.diffuse = encoded_srgb(neutral_tone(seen(base, 0.0f, lit, vec3(material.emissive))));
         }
         some.store(lit.diffuse, surface.diffuse);
-        some.store(lit.mirrored, surface.mirrored);
-        if (features.two_faced()) {
+        some.store(lit.specular, surface.specular);
+        if (features.lit_on_both_sides()) {
             point.normal = -point.normal;
             const Lit behind = light_on(lights, features, point, load(visible));
             some.store(behind.diffuse, surface.more_diffuse);
-            some.store(behind.mirrored, surface.more_mirrored);
+            some.store(behind.specular, surface.more_specular);
         }
     }
 }
@@ -154,9 +154,9 @@ void Interpolate(TileItems& items, const Tile& tile, const TileTriangle& triangl
     const auto [a, b, c] = triangle.corners;
     const bool at_pixels = !features.per_vertex && !features.unlit;
     const bool shadow_at_pixels = features.shadow && (at_pixels || features.pixel_shadow);
-    const bool behind = features.two_faced() && !triangle.front;
+    const bool behind = features.lit_on_both_sides() && !triangle.front;
     const Vec3* diffuse = behind ? surface.more_diffuse : surface.diffuse;
-    const Vec3* mirrored = behind ? surface.more_mirrored : surface.mirrored;
+    const Vec3* specular = behind ? surface.more_specular : surface.specular;
     const Float left = static_cast<float>(tile.x) + 0.5f, top = static_cast<float>(tile.y) + 0.5f;
     static_assert(kTileWidth == 64);
     for (int i = items.first; i < items.count; i += lanes()) {
@@ -181,11 +181,11 @@ void Interpolate(TileItems& items, const Tile& tile, const TileTriangle& triangl
         if (features.vertex_colour) some.interpolate<4>(surface.colours, items.colour);
         if (features.per_vertex) {
             some.interpolate<3>(diffuse, items.diffuse);
-            if (!features.finished()) some.interpolate<3>(mirrored, items.mirrored);
+            if (!features.finished()) some.interpolate<3>(specular, items.specular);
         }
         if (features.pixel_shadow) {
             some.interpolate<3>(surface.more_diffuse, items.more_diffuse);
-            some.interpolate<3>(surface.more_mirrored, items.more_mirrored);
+            some.interpolate<3>(surface.more_specular, items.more_specular);
         }
         if (at_pixels || shadow_at_pixels) {
             some.interpolate<3>(surface.positions, items.position);
@@ -306,7 +306,7 @@ struct WideItems {
                                                    (image_at(surface.occlusion).x - Float(1.0f));
         const Float visible = features.shadow ? visible_at(normal) : Float(1.0f);
         ShadedPoint point = point_at(lights, material, load3(items.position, i), normal);
-        point.mirror = mirror_of(base, metal, vec3(material.reflectance));
+        point.f0 = f0_of(base, metal, vec3(material.reflectance));
         point.rough = clamp(rough, kLeastRough, 1.0f);
         point.ambient_occlusion = ambient_occlusion;
         if (features.anisotropic) set_anisotropy(point);
@@ -316,14 +316,14 @@ struct WideItems {
     // Light was worked out at the vertices.
     vec3 lit_at_vertices(const vec3& base, const vec3& glow) const {
         const SurfaceFeatures& features = surface.lit->features;
-        Lit lit{load3(items.diffuse, i), load3(items.mirrored, i)};
+        Lit lit{load3(items.diffuse, i), load3(items.specular, i)};
         if (features.pixel_shadow && features.shadow) {
             const Float visible = visible_at(normalize(load3(items.normal, i)));
             lit.diffuse += visible * load3(items.more_diffuse, i);
-            lit.mirrored += visible * load3(items.more_mirrored, i);
+            lit.specular += visible * load3(items.more_specular, i);
         }
         const vec3 colour = seen(base, 0.0f, lit, glow);
-        if (!features.double_sided || features.two_faced()) return colour;
+        if (!features.double_sided || features.lit_on_both_sides()) return colour;
         return colour *
                mix(1.0f, 0.5f, load(items.facing + i) < Float(0.0f));  // the inside of a sleeve or collar
     }

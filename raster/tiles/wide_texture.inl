@@ -38,18 +38,18 @@ HWY_INLINE Neighbours neighbours(Float place, IntLanes size, const TileImage& im
     return {first, second, image.smooth ? texels - left : Float(0.0f)};
 }
 
-HWY_INLINE Float channel(IntLanes texel, int shift, int mask, bool is_squared) {
+HWY_INLINE Float channel(IntLanes texel, int shift, int mask, bool is_sqrt_encoded) {
     const IntLanes number = hn::And(hn::ShiftRightSame(texel, shift), whole(mask));
     const Float value = to_float(number);
-    return is_squared ? value * value : value;
+    return is_sqrt_encoded ? value * value : value;
 }
 
 // Numbers from 0 to the largest of the image, not yet scaled.
 HWY_INLINE vec4 unpacked(IntLanes texel, const TileImage& image) {
     const int bits = image.bits, mask = (1 << bits) - 1;
     const Float alpha = bits == 8 ? channel(texel, 24, 255, false) : Float(255.0f);
-    return {channel(texel, 0, mask, image.is_squared), channel(texel, bits, mask, image.is_squared),
-            channel(texel, 2 * bits, mask, image.is_squared), alpha};
+    return {channel(texel, 0, mask, image.is_sqrt_encoded), channel(texel, bits, mask, image.is_sqrt_encoded),
+            channel(texel, 2 * bits, mask, image.is_sqrt_encoded), alpha};
 }
 
 HWY_INLINE vec4 blend(const vec4& a, const vec4& b, Float share) {
@@ -122,7 +122,7 @@ HWY_INLINE vec4 sample(const TileImage& image, const TexturePlace& place) {
         seen = blend(seen, sample_level(image, next, inside_u, inside_v), further);
     }
     const float most = static_cast<float>((1 << image.bits) - 1);
-    const Float scale = 1.0f / (image.is_squared ? most * most : most);
+    const Float scale = 1.0f / (image.is_sqrt_encoded ? most * most : most);
     return {seen.x * scale, seen.y * scale, seen.z * scale, seen.w * Float(1.0f / 255.0f)};
 }
 

@@ -20,14 +20,14 @@ using testing::avatar_of;
 using testing::quad;
 
 const ShadedPoint kFaced{
-    .normal = {0, 0, 1}, .towards_eye = {0, 0, 1}, .mirror = Vec3(0.04f), .rough = 1, .ambient_occlusion = 1};
+    .normal = {0, 0, 1}, .towards_eye = {0, 0, 1}, .f0 = Vec3(0.04f), .rough = 1, .ambient_occlusion = 1};
 
 // A light of radiance 1 straight on: 0.96 goes into the surface, and GGX at roughness 1 mirrors a quarter of
 // the 4 %. Of what hits several facets, 0.55 of the light, 4 % more follow.
 TEST(Shading, OfAFacedLightIsLambertAndGgx) {
     const Lit lit = light_from(kFaced, {.towards = {0, 0, 1}, .radiance = Vec3(1), .wrap = 0}, 1);
     EXPECT_NEAR(lit.diffuse.r, 0.96f, 1e-6f);
-    EXPECT_NEAR(lit.mirrored.r, 0.01f * (1 + 0.04f * 0.55f / 0.45f), 1e-6f);
+    EXPECT_NEAR(lit.specular.r, 0.01f * (1 + 0.04f * 0.55f / 0.45f), 1e-6f);
 }
 
 TEST(Shading, SendsBackAllLightFromEverywhere) {
@@ -36,7 +36,7 @@ TEST(Shading, SendsBackAllLightFromEverywhere) {
             ShadedPoint point = kFaced;
             point.rough = rough;
             point.towards_eye = normalize(eye);
-            const Lit lit = light_from_everywhere(point, Vec3(1), Vec3(1));
+            const Lit lit = ambient_light(point, Vec3(1), Vec3(1));
             EXPECT_NEAR(shading::seen(Vec3(1), 0, lit, Vec3(0)).r, 1, 1e-5f) << rough << ", " << eye.z;
         }
     }
@@ -45,13 +45,13 @@ TEST(Shading, SendsBackAllLightFromEverywhere) {
 // As KHR_materials_specular has it for a factor of 0: all light goes into the surface, from wherever it is seen.
 TEST(Shading, OfASurfaceWithoutReflectanceIsLambert) {
     ShadedPoint point = kFaced;
-    point.mirror = Vec3(0);
+    point.f0 = Vec3(0);
     point.rough = 0.3f;
     point.towards_eye = normalize(Vec3(0.995f, 0, 0.1f));
     const Lit lit = light_from(point, {.towards = {0, 0, 1}, .radiance = Vec3(1), .wrap = 0}, 1);
-    EXPECT_EQ(lit.mirrored, Vec3(0));
+    EXPECT_EQ(lit.specular, Vec3(0));
     EXPECT_EQ(lit.diffuse, Vec3(1));
-    EXPECT_EQ(light_from_everywhere(point, Vec3(1), Vec3(1)).mirrored, Vec3(0));
+    EXPECT_EQ(ambient_light(point, Vec3(1), Vec3(1)).specular, Vec3(0));
 }
 
 // A coat takes from what lies under it what it mirrors itself.
@@ -60,7 +60,7 @@ TEST(Shading, OfACoatedSurfaceSendsBackAllLightFromEverywhere) {
     point.coat = 1;
     point.coat_rough = 0.1f;
     point.scatter = {0.4f, 0.2f, 0.1f};
-    const Lit lit = light_from_everywhere(point, Vec3(1), Vec3(1));
+    const Lit lit = ambient_light(point, Vec3(1), Vec3(1));
     EXPECT_NEAR(shading::seen(Vec3(1), 0, lit, Vec3(0)).g, 1, 1e-5f);
 }
 
@@ -88,21 +88,23 @@ TEST(Shading, LetsRedLightCreepFurthestIntoTheShadeOfSkin) {
     EXPECT_EQ(crept.b, 0);
     EXPECT_EQ(light_from(kFaced, setting, 1).diffuse, Vec3(0));
     // The edge of a shadow is tinted, full light and full shade are not.
-    EXPECT_GT(shading::bled(0.5f, skin.scatter).r, shading::bled(0.5f, skin.scatter).b);
-    EXPECT_EQ(shading::bled(1, skin.scatter), Vec3(1));
-    EXPECT_EQ(shading::bled(0, skin.scatter), Vec3(0));
+    EXPECT_GT(shading::scattered_shadow(0.5f, skin.scatter).r,
+              shading::scattered_shadow(0.5f, skin.scatter).b);
+    EXPECT_EQ(shading::scattered_shadow(1, skin.scatter), Vec3(1));
+    EXPECT_EQ(shading::scattered_shadow(0, skin.scatter), Vec3(0));
 }
 
 // The mean over all half-way directions of peak times cosine is 1, however wide the light makes the peak.
 TEST(Shading, KeepsWhatAHighlightHoldsWhenItsLightIsLarge) {
     for (const float size : {0.0f, 0.1f, 0.3f}) {
-        // Without masking, at faced = facing = 1, the formula is a quarter of the peak.
+        // Without masking, at n_dot_l = n_dot_v = 1, the formula is a quarter of the peak.
         double sum = 0;
         constexpr int kSteps = 20000;
         for (int i = 0; i < kSteps; ++i) {
             const double cosine = (i + 0.5) / kSteps;
-            const shading::Reflection way{.aligned = static_cast<float>(cosine), .faced = 1, .facing = 1};
-            sum += 4 * shading::highlight(0.3f, size, way) * cosine * 2 / kSteps;
+            const shading::ShadingAngles angles{
+                .n_dot_h = static_cast<float>(cosine), .n_dot_l = 1, .n_dot_v = 1};
+            sum += 4 * shading::highlight(0.3f, size, angles) * cosine * 2 / kSteps;
         }
         EXPECT_NEAR(sum, 1, 1e-3) << size;
     }
@@ -146,8 +148,8 @@ TEST(Shading, OfAStretchedHighlightIsThatOfKhronos) {
                     const float ours =
                         shading::stretched_highlight(point, {.towards = light},
                                                      {.half_way = normalize(light + point.towards_eye),
-                                                      .faced = light.z,
-                                                      .facing = point.towards_eye.z});
+                                                      .n_dot_l = light.z,
+                                                      .n_dot_v = point.towards_eye.z});
                     const double theirs =
                         khronos_highlight(strength, rough, {std::cos(turn), std::sin(turn), 0},
                                           glm::dvec3(light), glm::dvec3(point.towards_eye));
@@ -161,15 +163,15 @@ TEST(Shading, OfAStretchedHighlightIsThatOfKhronos) {
 // Straight on GGX shows a quarter over the product of both widths: 1 along the direction and 0.5^2 across.
 TEST(Shading, OfAFacedStretchedHighlightIsAQuarterOverItsWidths) {
     const Illuminant light{.towards = {0, 0, 1}, .radiance = Vec3(1), .wrap = 0};
-    const float shine = light_from(brushed(1, 0.5f, 0), light, 1).mirrored.r;
-    EXPECT_NEAR(shine, 0.04f * shading::reflected_on(Vec3(0.04f), 0.5f).r * 0.25f / 0.25f, 1e-6f);
+    const float shine = light_from(brushed(1, 0.5f, 0), light, 1).specular.r;
+    EXPECT_NEAR(shine, 0.04f * shading::multiple_scattering(Vec3(0.04f), 0.5f).r * 0.25f / 0.25f, 1e-6f);
 }
 
 // Half-way directions 30 degrees off the normal: along the direction the highlight is still there.
 TEST(Shading, StretchesAHighlightAlongItsDirection) {
     const auto shine = [](float turn) {
         const Illuminant light{.towards = {std::sin(kPi / 3), 0, 0.5f}, .radiance = Vec3(1), .wrap = 0};
-        return light_from(brushed(0.9f, 0.3f, turn), light, 1).mirrored.r;
+        return light_from(brushed(0.9f, 0.3f, turn), light, 1).specular.r;
     };
     EXPECT_GT(shine(0), 10 * shine(kPi / 2));
     EXPECT_FLOAT_EQ(shine(0), shine(kPi));
@@ -190,7 +192,7 @@ TEST(Shading, KeepsWhatAStretchedHighlightHolds) {
                 // The light straight on: without masking, the formula is a quarter of the peak.
                 const Illuminant light{.towards = {0, 0, 1}, .size = size};
                 const float peak = 4 * shading::stretched_highlight(
-                                           point, light, {.half_way = half, .faced = 1, .facing = 1});
+                                           point, light, {.half_way = half, .n_dot_l = 1, .n_dot_v = 1});
                 sum += static_cast<double>(peak * cosine) * 2 / kSteps / kTurns;
             }
         }
@@ -215,8 +217,8 @@ TEST(Shading, KeepsTheHighlightOfAWetEyeInTheShade) {
     const Illuminant light{.towards = {0, 0, 1}, .radiance = Vec3(1), .wrap = 0, .size = 0.1f};
     const Lit lit = light_from(eye, light, 0);
     EXPECT_EQ(lit.diffuse, Vec3(0));
-    EXPECT_GT(lit.mirrored.r, 0.5f);
-    EXPECT_EQ(light_from(kFaced, light, 0).mirrored, Vec3(0));
+    EXPECT_GT(lit.specular.r, 0.5f);
+    EXPECT_EQ(light_from(kFaced, light, 0).specular, Vec3(0));
 }
 
 TEST(Shading, FadesAShadowOutWhereTheSurfaceTurnsFromTheLight) {
@@ -228,7 +230,7 @@ TEST(Shading, FadesAShadowOutWhereTheSurfaceTurnsFromTheLight) {
 }
 
 TEST(Shading, KeepsBaseColoursAndRollsHighlightsOff) {
-    // Khronos: what is mirrored at 4 % is taken away again, up to 0.8.
+    // Khronos: the 4 % that are reflected are taken away again, up to 0.8.
     EXPECT_NEAR(shading::neutral_tone(Vec3(0.54f, 0.34f, 0.24f)).r, 0.5f, 1e-6f);
     EXPECT_LT(shading::neutral_tone(Vec3(50)).r, 1);
     EXPECT_GT(shading::neutral_tone(Vec3(50)).r, shading::neutral_tone(Vec3(5)).r);
@@ -277,7 +279,7 @@ TEST(Shading, InCppIsThatOfTheRasterizer) {
             const Frame frame = make_gl_renderer(avatar, scene, {33, 33})->render(rest_mesh(avatar));
 
             ShadedPoint point = kFaced;
-            point.mirror = shading::mirror_of(base, metal, reflectance);
+            point.f0 = shading::f0_of(base, metal, reflectance);
             point.rough = rough;
             point.scatter = material.scatter;
             point.coat = material.coat;
@@ -285,7 +287,7 @@ TEST(Shading, InCppIsThatOfTheRasterizer) {
             point.anisotropy = material.anisotropy;
             point.along = {std::cos(0.5f), std::sin(0.5f), 0};
             const Lit lit =
-                sum_of(light_from_everywhere(point, scene.sky, scene.ground), light_from(point, light, 1));
+                sum_of(ambient_light(point, scene.sky, scene.ground), light_from(point, light, 1));
             const Vec3 colour = seen(base, metal, lit, Vec3(0));
             const Vec3 level = 255.0f * shading::encoded_srgb(shading::neutral_tone(colour));
             const std::uint8_t* middle = frame.rgba.data() + (16 * 33 + 16) * 4;
