@@ -4,7 +4,7 @@
 namespace chironomia {
 
 // The cores that the system lets this process run on (a job of Slurm and a container may have fewer than the machine),
-// or fewer where its control group allows less time than they have. At least 1.
+// or fewer where the CPU quota of its cgroup allows less. At least 1.
 int available_cores();
 
 }  // namespace chironomia

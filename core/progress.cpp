@@ -25,11 +25,11 @@ long long now_ms() {
     return now.tv_sec * 1000LL + now.tv_nsec / 1'000'000;
 }
 
-// One wish may come twice at once: from the terminal, and from the program that started this one.
+// One Ctrl-C may arrive as two signals: from the terminal, and from the program that started this one.
 void remember_interrupt(int signal) {
     constexpr long long kAtOnce = 1000;  // [ms]
     if (interrupted == 0) first_interrupt = now_ms();
-    // The system repeats SIGXCPU each second, which is no second wish.
+    // The system repeats SIGXCPU each second, which is no second Ctrl-C.
     if (interrupted != 0 && signal != SIGXCPU && now_ms() - first_interrupt > kAtOnce) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);

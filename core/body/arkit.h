@@ -3,8 +3,8 @@
 
 namespace chironomia {
 
-// How much of jawOpen, the widest drop there is (AU27), shows a whole AU26, a relaxed one. mouthClose takes the lips of
-// the same drop back to each other: as much of it shows a whole AU8. Ours, by eye.
+// The weight of jawOpen (at 1 the widest drop, AU27) that equals a full AU26, a relaxed drop. mouthClose brings the
+// lips of the same drop back together: the same weight of it equals a full AU8. Ours, by eye.
 inline constexpr float kWholeDrop = 0.7f;
 
 }  // namespace chironomia

@@ -195,7 +195,7 @@ void Hdf5Writer::write_floats(const std::string& path, const Shape& shape, std::
                               Packing packing) {
     assert(values.size() == count_of(shape));
     const Handle half = half_type();
-    const hid_t stored = packing == Packing::halved ? half : H5T_IEEE_F32LE;
+    const hid_t stored = packing == Packing::float16 ? half : H5T_IEEE_F32LE;
     state_->write(path, shape, {.stored = stored, .given = H5T_NATIVE_FLOAT, .data = values.data()}, packing);
 }
 

@@ -20,7 +20,7 @@ class Hdf5Writer {
     enum class Packing {
         plain,
         deflated,  // shuffled and packed in one chunk
-        halved,    // alike, as 16-bit floats: 11 bits of each number are kept, and none may be above 65504
+        float16,  // as deflated, of 16-bit floats: 11 bits of each number are kept, and none may be above 65504
     };
 
     //   file   where to write, such as the path of a PendingOutput
@@ -45,7 +45,7 @@ class Hdf5Writer {
     void write_doubles(const std::string& path, const Shape& shape, std::span<const double> values);
     void write_ints(const std::string& path, const Shape& shape, std::span<const int> values);
     void write_bytes(const std::string& path, const Shape& shape, std::span<const std::uint8_t> values);
-    // Nothing is written of no texts. UTF-8 of a fixed length.
+    // UTF-8 of a fixed length. An empty list writes nothing.
     void write_texts(const std::string& path, const std::vector<std::string>& texts);
 
     // Everything goes to the disk here, and may not fit.

@@ -20,7 +20,7 @@ size_t frames_to_cover(const Audio& sound, const Rate& fps) {
 
 }  // namespace
 
-ClipLength agree_length(size_t motion_frames, const Rate& fps, const Audio* sound) {
+ClipLength match_lengths(size_t motion_frames, const Rate& fps, const Audio* sound) {
     assert(motion_frames > 0);
     ClipLength length{.frames = motion_frames};
     if (!sound) return length;
@@ -41,7 +41,7 @@ ClipLength agree_length(size_t motion_frames, const Rate& fps, const Audio* soun
     return length;
 }
 
-Audio fit_to(const Audio& sound, double seconds) {
+Audio pad_with_silence(const Audio& sound, double seconds) {
     const auto wanted = static_cast<size_t>(std::max(0LL, std::llround(seconds * sound.rate)));
     Audio fitted = sound;
     fitted.samples.resize(std::max(wanted, sound.length()) * static_cast<size_t>(sound.channels));

@@ -20,9 +20,9 @@ struct ClipLength {
 // Sound that ends before the picture is filled up with silence to its very end. Motion that ends more than
 // one frame before the sound holds its last pose until the sound is over. A difference of more than one frame
 // is worth a warning. `motion_frames` is at least 1; without sound (null) the motion alone decides.
-ClipLength agree_length(size_t motion_frames, const Rate& fps, const Audio* sound);
+ClipLength match_lengths(size_t motion_frames, const Rate& fps, const Audio* sound);
 
 // The sound with silence added so that it lasts at least `seconds`, rounded to the nearest sample.
-Audio fit_to(const Audio& sound, double seconds);
+Audio pad_with_silence(const Audio& sound, double seconds);
 
 }  // namespace chironomia

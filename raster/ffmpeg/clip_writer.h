@@ -28,7 +28,7 @@ struct ClipSpec {
 class ClipWriter {
   public:
     // Throws Error if the ending is unknown, a side is odd or not in [16, 8192], the preset or crf is
-    // unknown, the sound is empty or has no usual channels, or the file cannot be written.
+    // unknown, the sound is empty or has an unusual channel layout, or the file cannot be written.
     ClipWriter(const std::filesystem::path& file, const ClipSpec& spec, const std::optional<Audio>& sound);
     ~ClipWriter();
     ClipWriter(ClipWriter&&) noexcept;
@@ -37,7 +37,7 @@ class ClipWriter {
     void write(const Frame& frame);
 
     // Throws Error if there was no frame, or if picture and sound end more than one frame apart
-    // (agree_length in clip_length.h avoids it), or the disk is full.
+    // (match_lengths in clip_length.h avoids it), or the disk is full.
     void finish();
 
   private:

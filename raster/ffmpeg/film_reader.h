@@ -20,8 +20,8 @@ struct FilmSpec {
 
 class FilmReader {
   public:
-    // Throws Error if the file is missing, cut off, holds no pictures or is of no known kind, or if it is to
-    // be shown askew.
+    // Throws Error if the file is missing, cut off, holds no pictures, is of no known kind, or is rotated by other than
+    // 90-degree steps.
     FilmReader(const std::filesystem::path& file, const FilmSpec& spec);
     ~FilmReader();
     FilmReader(FilmReader&&) noexcept;

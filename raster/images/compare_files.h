@@ -22,8 +22,8 @@ struct FramePair {
     const FrameComparison& comparison;
 };
 
-// Of a sound whose loudest sample is quiet, a quarter of it bounds the error of a sample instead, 0.0005 at least (ours:
-// 12 dB below it, and -66 dB).
+// For quiet sounds the limit of a sample's error is a quarter of the peak instead, at least 0.0005 (ours: 12 dB below
+// the peak, and -66 dB).
 struct CompareOptions {
     CompareLimits limits = {};
     double sound_limit = 0.01;  // largest error of a sample, of [-1, 1]

@@ -61,8 +61,8 @@ struct CompareSet {
 // Two folders are matched by the relative names of their .png, .exr, .mp4 and .webm files, at any depth; names that
 // begin with a dot are passed over. Anything else is one pair as compare_files knows it. What cannot be read is a case
 // of its own in folders. A difference picture lies in the folder under the name of its file, "walk/00012.png" or
-// "walk.mp4/00012.png"; those of earlier runs stay. Throws Error if one of both is not there, if the folder for them
-// lies in one that is compared, if both folders hold nothing to compare, if one part is asked for of anything but two
+// "walk.mp4/00012.png"; those of earlier runs stay. Throws Error if one of the two is not there, if the folder for them
+// lies in one that is compared, if both folders hold nothing to compare, if a part is asked for of anything but two
 // folders, or if a picture cannot be written; for one pair, what reading it throws. Throws Interrupted if the user
 // stops it.
 CompareSet compare_sets(const std::filesystem::path& expected, const std::filesystem::path& actual,

@@ -50,9 +50,9 @@ constexpr Farthest kFarthest;
 constexpr size_t kFewestChecks = 6;
 
 // Frames of a picture, and how often parts of a body lie where they should not.
-class OddPlaces {
+class ImplausiblePlaces {
   public:
-    explicit OddPlaces(const KeypointTrack& track) : track_(track) {
+    explicit ImplausiblePlaces(const KeypointTrack& track) : track_(track) {
         for (const std::string& name : track.names) landmarks_.push_back(landmark_named(name));
         const size_t points = track.names.size(), frames = track.points.size() / std::max<size_t>(points, 1);
         for (size_t t = 0; t < frames; t += frames / kMostLooks + 1) look_at(t * points);
@@ -217,7 +217,7 @@ size_t count_rigid_pairs(const KeypointTrack& track) {
     return pairs;
 }
 
-std::optional<double> left_of_changes(const KeypointTrack& track) {
+std::optional<double> residual_changes(const KeypointTrack& track) {
     double flat = 0, deep = 0;
     size_t bones = 0;
     for_all_bones([&](const Bone& bone) {
@@ -235,11 +235,11 @@ std::optional<double> left_of_changes(const KeypointTrack& track) {
     return deep / flat;
 }
 
-std::optional<double> odd_places(const KeypointTrack& track) {
-    return OddPlaces(track).run();
+std::optional<double> implausible_places(const KeypointTrack& track) {
+    return ImplausiblePlaces(track).run();
 }
 
-std::optional<double> odd_bones(const KeypointTrack& track, Seen seen) {
+std::optional<double> implausible_bones(const KeypointTrack& track, Seen seen) {
     std::vector<double> ratios;  // logarithms; minus infinity for a bone without length
     std::vector<bool> stretches;
     const bool captured = seen == Seen::in_space && count_rigid_pairs(track) >= kFewestBones;

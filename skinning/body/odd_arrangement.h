@@ -18,8 +18,8 @@ std::optional<double> odd_arrangement(const KeypointTrack& track);
 
 // From this share on another order of points is meant. Ours, chosen on every other of 120 recordings of CMU and 7
 // samples, whole and in two parts of 60 frames: as themselves SMPL 22, Human3.6M 17 and COCO 17 have 0 to 0.03, in the
-// orders of LaFAN1, MPI-INF-3DHP and of hierarchies 0.37 to 0.77, and shuffled 0.14 to 0.81, of which odd_bones sees
-// most. Of the other half 0 to 0.01, 0.37 to 0.71 and 0.29 to 0.86. It was 0.25 until true points of tests, whose
+// orders of LaFAN1, MPI-INF-3DHP and of hierarchies 0.37 to 0.77, and shuffled 0.14 to 0.81, of which implausible_bones
+// sees most. Of the other half 0 to 0.01, 0.37 to 0.71 and 0.29 to 0.86. It was 0.25 until true points of tests, whose
 // unknown parts lie on the hips, were refused at 0.29 and 0.32.
 inline constexpr double kTooOddArrangement = 0.35;
 

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::array kSides = {Side::left, Side::right};
 
-// Rigify's "ORG-" joints stand behind "DEF-" ones; they play a part only where those hang from one another in no way
-// that makes a body.
+// A Rigify rig has "ORG-" joints beside its "DEF-" joints. They are parts of the body only where the DEF joints form no
+// valid body.
 enum class Originals { left_out, read };
 
 // The length of what all names begin with, up to a separator: "Subject1_".
@@ -32,8 +32,8 @@ size_t shared_prefix(const Skeleton& skeleton) {
     return separator == std::string_view::npos ? 0 : separator + 1;
 }
 
-// Whether a joint is there twice, as FBX loaders write it: a child with the name and at the place of its parent.
-bool doubles(const Skeleton& skeleton, size_t joint) {
+// Whether a joint repeats its parent, as FBX loaders write it: it has the name and the place of its parent.
+bool repeats_parent(const Skeleton& skeleton, size_t joint) {
     const Joint& child = skeleton.joints[joint];
     return child.parent >= 0 && child.rest.translation == Vec3(0) &&
            child.name == skeleton.joints[static_cast<size_t>(child.parent)].name;
@@ -49,7 +49,7 @@ class NameGuess {
             // Eyeballs and a jaw may be meshes that hang from the head.
             const bool of_face = reading.role == Role::eye || reading.role == Role::jaw;
             const bool left_out =
-                (reading.is_original && originals == Originals::left_out) || doubles(skeleton, j);
+                (reading.is_original && originals == Originals::left_out) || repeats_parent(skeleton, j);
             readings_.push_back(
                 (tree_.is_joint(static_cast<int>(j)) || of_face) && !left_out ? reading : NameReading{});
         }
@@ -73,7 +73,7 @@ class NameGuess {
     void find_fingers(Side side);
     void find_middle();
     void find_face();
-    void drop_what_hangs_wrong();
+    void drop_misplaced_parts();
     int best_head(int chest) const;
     int hips_above(int trunk) const;
 
@@ -294,12 +294,12 @@ HumanoidMap NameGuess::find() {
     find_middle();
     find_face();
     for (const Side side : kSides) find_fingers(side);
-    drop_what_hangs_wrong();
+    drop_misplaced_parts();
     return map_;
 }
 
-// A part must hang from the part above it and be played by a joint of its own.
-void NameGuess::drop_what_hangs_wrong() {
+// The joint of a part must be a descendant of the joint of the part above it, and not the same joint.
+void NameGuess::drop_misplaced_parts() {
     for (int p = 0; p < kHumanJoints; ++p) {
         const auto part = static_cast<HumanJoint>(p);
         if (!map_.has(part) || part == HumanJoint::hips) continue;
@@ -436,7 +436,7 @@ bool names_contradict(const Skeleton& skeleton, const HumanoidMap& map) {
     return false;
 }
 
-HumanoidGuess judged(const Skeleton& skeleton, HumanoidGuess guess) {
+HumanoidGuess validated(const Skeleton& skeleton, HumanoidGuess guess) {
     const std::vector<std::string> missing = missing_essentials(guess.map);
     if (!missing.empty()) {
         guess.refusal = format(
@@ -470,11 +470,11 @@ HumanoidGuess find_humanoid(const Skeleton& skeleton, const std::vector<bool>& j
     }
     // A body whose limbs are rigid meshes, with a skin somewhere else.
     if (!joints.empty() && !missing_essentials(guess.map).empty()) return find_humanoid(skeleton, {});
-    return judged(skeleton, std::move(guess));
+    return validated(skeleton, std::move(guess));
 }
 
 HumanoidGuess check_humanoid(const Skeleton& skeleton, const HumanoidMap& map) {
-    return judged(skeleton, {.map = map, .notes = {"named by the file itself (VRM)"}, .refusal = {}});
+    return validated(skeleton, {.map = map, .notes = {"named by the file itself (VRM)"}, .refusal = {}});
 }
 
 }  // namespace chironomia

@@ -87,7 +87,7 @@ VotePair pair_of(const Dataset& data, std::size_t a, std::size_t b) {
     return {.first = a, .second = b, .made_of_it = is_made_of(data, b, a)};
 }
 
-// `pair` with its votes, which are at `most` so many steps away from equal.
+// `pair` with its votes, whose strengths lie in [-most, most].
 VotePair counted(VotePair pair, const Preferences& preferences, int most, const Resampling& resampling) {
     const Ballot ballot = ballot_of(preferences, {pair.first, pair.second});
     for (const Vote& vote : ballot.votes) {
@@ -114,8 +114,9 @@ void adjust(std::vector<Result>& results, const Part& test_of) {
     for (std::size_t i = 0; i < results.size(); ++i) test_of(results[i]).holm_p = adjusted[i];
 }
 
-// Conditions against what was made of them are compared with each other; so are pairs that share a condition, which
-// stands first in both or second in both: "x over base" and "base over y" are x and y over base.
+// Conditions against what was made of them are compared with each other; so are pairs that share a condition. If it is
+// first in one pair and second in the other, as in "x over base" and "base over y", the second pair is turned round so
+// that both are against base.
 std::vector<VoteContrast> contrast(const std::vector<VotePair>& pairs) {
     std::vector<VoteContrast> contrasts;
     for (std::size_t i = 0; i < pairs.size(); ++i) {

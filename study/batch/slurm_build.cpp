@@ -24,7 +24,7 @@ namespace {
 constexpr double kFirstPause = 0.5;   // [s]
 constexpr double kLongestPause = 15;  // [s]
 constexpr double kGrowth = 1.25;      // of a pause over the one before
-constexpr int kMostSilences = 5;      // of squeue, one after the other, before it is given up
+constexpr int kMostFailedPolls = 5;   // queries of squeue that fail in a row before it is given up
 
 std::string job_name_of(const StudyState& state) {
     return "chironomia-" + state.draft.recipe.substr(0, 12);
@@ -104,18 +104,18 @@ std::size_t follow_jobs(const std::string& name, const std::set<std::string>& jo
     const fs::path work = StudyFolder{build.out}.work();
     StatusLine line(build.quiet);
     FailedTasks failed(jobs);
-    int silences = 0;
+    int failed_polls = 0;
     for (double wait = kFirstPause;; wait = std::min(kLongestPause, kGrowth * wait)) {
         pause(wait);
         try {
             const SlurmTasks tasks = ask_slurm(name);
-            silences = 0;
+            failed_polls = 0;
             failed.add(tasks);
             if (tasks.is_over()) return failed.count();
             line.show(format("study: {} of {} videos; {} tasks run, {} wait, {} failed", count_notes(work),
                              state.distinct.size(), tasks.running, tasks.waiting, failed.count()));
         } catch (const Error&) {
-            if (++silences == kMostSilences) throw;
+            if (++failed_polls == kMostFailedPolls) throw;
         }
     }
 }

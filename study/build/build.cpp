@@ -63,9 +63,9 @@ class BuildLock {
     int handle_;
 };
 
-// A finished study is lost only to those who ask for it, and never once people have answered it: their
-// answers would have no key any more.
-void require_leave_to_replace(const StudyFolder& study, const BuildOptions& options) {
+// A finished study is replaced only with --replace, and never once people have answered it: their answers would
+// have no key any more.
+void require_may_replace(const StudyFolder& study, const BuildOptions& options) {
     for (const fs::path& sign :
          {study.answers(), study.database_elsewhere(), study.closed() / "answers.json"}) {
         if (!fs::exists(sign)) continue;
@@ -236,7 +236,7 @@ BuildSummary summary_of(const StudyDraft& draft, const BuildOptions& options) {
 // Refuses a folder that may not become this study.
 void require_same_study_or_leave(const StudyDraft& draft, const StudyFolder& study,
                                  const BuildOptions& options) {
-    if (!is_same_study(study, draft)) require_leave_to_replace(study, options);
+    if (!is_same_study(study, draft)) require_may_replace(study, options);
     require_no_server(study);
 }
 

@@ -61,8 +61,8 @@ std::vector<std::size_t> in_order(std::size_t count) {
     return order;
 }
 
-// Pages beside the trials have sides by chance, as far as their layout may move them.
-std::vector<std::size_t> drawn_places(const Plan& plan, std::vector<std::size_t> group, Random& random) {
+// Pages that are no trials have random sides, as far as their layout may move them.
+std::vector<std::size_t> random_places(const Plan& plan, std::vector<std::size_t> group, Random& random) {
     if (plan.layout == Layout::parallel) random.shuffle(group);
     const bool may_turn = plan.layout != Layout::parallel && !plan.fixed_sides;
     if (may_turn && random.below(2) == 1) std::reverse(group.begin(), group.end());
@@ -74,7 +74,7 @@ std::vector<PlannedPage> practice_pages(const Plan& plan, Random& sides) {
     for (std::size_t i = 0; i < plan.clips.size(); ++i) {
         if (!plan.clips[i].practice) continue;
         const auto& group = plan.groups[pages.size() % plan.groups.size()];
-        pages.push_back({.kind = PageKind::practice, .clip = i, .places = drawn_places(plan, group, sides)});
+        pages.push_back({.kind = PageKind::practice, .clip = i, .places = random_places(plan, group, sides)});
     }
     return pages;
 }
@@ -98,7 +98,7 @@ std::vector<PlannedPage> check_pages(const Plan& plan, const std::vector<std::si
         pages.push_back(
             {.kind = PageKind::check,
              .clip = clips[i % clips.size()],
-             .places = drawn_places(plan, group, sides),
+             .places = random_places(plan, group, sides),
              .notice = CheckNotice{.place = place,
                                    .spoken = plan.checks.kinds[i % plan.checks.kinds.size()] == "audio",
                                    .text = std::move(check.instruction)},

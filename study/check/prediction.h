@@ -30,7 +30,7 @@ struct Prediction {
 // Leaves one clip out at a time, learns from the others how large each trait (its rank within its clip) is
 // for each condition, and predicts the videos of the clip by the nearest of them: by each trait alone and by
 // all together. The best of these is compared with the best for the same videos with conditions that are
-// shuffled within clips (a permutation test of the maximum), so many traits do not make a leak out of chance.
+// shuffled within clips (a permutation test of the maximum), which corrects for testing many traits.
 // Every clip has a video of each condition, and there are at least 2 clips.
 //   names   of the traits
 Prediction predict_conditions(const std::vector<VideoTraits>& videos, const std::vector<std::string>& names,

@@ -75,7 +75,7 @@ Audio read_cut(const fs::path& file, const Cut& cut) {
     return std::move(part.sound);
 }
 
-Audio trim_to(const Audio& sound, double seconds) {
+Audio set_duration(const Audio& sound, double seconds) {
     const auto wanted = static_cast<std::size_t>(std::llround(seconds * sound.rate));
     const bool is_longer = sound.length() > wanted;
     Audio fitted = sound;

@@ -34,8 +34,8 @@ Motion cut_motion(const Motion& motion, const CutFrames& frames, const Rate& fps
 // ends before. Throws Error as read_audio_part, and if nothing is left.
 Audio read_cut(const std::filesystem::path& file, const Cut& cut);
 
-// The first `seconds`, rounded to the nearest sample: silence is added, or what is too much cut off with a
-// fade of 10 ms.
-Audio trim_to(const Audio& sound, double seconds);
+// The sound with a duration of `seconds`, rounded to the nearest sample: silence is added at the end, or the rest is
+// cut off with a fade of 10 ms.
+Audio set_duration(const Audio& sound, double seconds);
 
 }  // namespace chironomia::study

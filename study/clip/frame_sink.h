@@ -12,7 +12,7 @@
 
 namespace chironomia::study {
 
-// Encodes and writes behind the caller's back, in order, holding a bounded number of frames.
+// Encodes and writes on another thread, in order, holding a bounded number of frames.
 class FrameSink {
   public:
     // `sound` is as long as the clip; a stack of frames has none. Throws Error if `job.out` is no clip or

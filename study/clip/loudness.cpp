@@ -53,7 +53,7 @@ Loudness measure_loudness(const Audio& given) {
     return loudness;
 }
 
-LoudSound bring_to(const Audio& sound, double target) {
+LoudSound normalize_loudness(const Audio& sound, double target) {
     const Loudness loudness = measure_loudness(sound);
     LoudSound result{.sound = sound, .warning = {}};
     if (!loudness.integrated) {

@@ -31,7 +31,7 @@ struct LoudSound {
 
 // The sound with one gain from beginning to end, so that it is as loud as `target` [LUFS] unless its true
 // peak would be above kLoudestPeak. What has no loudness stays as it is.
-LoudSound bring_to(const Audio& sound, double target);
+LoudSound normalize_loudness(const Audio& sound, double target);
 
 // Of a sound, or of the sound of a finished clip; nothing if it has none. Throws Error if the file cannot be
 // read.

@@ -189,7 +189,7 @@ Audio speak_over(const Audio& sound, const SpokenNotice& spoken) {
     constexpr double kFade = 0.3;     // [s]
     const Audio voice = resample(voice_within(spoken, sound.duration()), sound.rate);
     const double loudness = measure_loudness(sound).integrated.value_or(kBroadcastLoudness);
-    const Audio instruction = bring_to(voice, loudness).sound;
+    const Audio instruction = normalize_loudness(voice, loudness).sound;
     Audio result = sound;
     const auto channels = static_cast<std::size_t>(sound.channels);
     const auto first = static_cast<std::size_t>(std::llround(spoken.at * sound.rate));

@@ -60,7 +60,8 @@ ClipLength length_of_clip(std::size_t frames, const ClipJob& job, const std::opt
         frames = std::max(frames,
                           static_cast<std::size_t>(std::ceil(*job.at_least * job.fps.per_second() - 1e-6)));
     }
-    ClipLength length = agree_length(frames, job.fps, sound && !picture_decides(job) ? &*sound : nullptr);
+    ClipLength length =
+        match_lengths(frames, job.fps, sound && !picture_sets_length(job) ? &*sound : nullptr);
     const double moved = static_cast<double>(frames);
     const double heard = sound ? sound->duration() * job.fps.per_second() + 1 : moved;
     if (ends_before(job, std::min(moved, heard))) length.warnings.clear();

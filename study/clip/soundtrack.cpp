@@ -91,7 +91,7 @@ double largest_sample(const Audio& sound) {
 // A sound that was asked for in part is as long as the picture.
 void fit_to_picture(Soundtrack& track, const ClipJob& job, double seconds) {
     const double missing = seconds - track.sound->duration();
-    track.sound = trim_to(*track.sound, seconds);
+    track.sound = set_duration(*track.sound, seconds);
     const bool is_meant = job.at_least && missing < 0;  // speech of another clip, which is longer
     if (is_meant || std::abs(missing) <= job.fps.seconds(1)) return;
     const std::string name = name_of_sound(job);
@@ -143,7 +143,7 @@ Soundtrack read_soundtrack(const ClipJob& job) {
     return track;
 }
 
-bool picture_decides(const ClipJob& job) {
+bool picture_sets_length(const ClipJob& job) {
     return job.cut || job.sound_cut ||
            std::any_of(job.performers.begin(), job.performers.end(),
                        [](const Performer& each) { return each.cut || each.voice_cut; });
@@ -164,16 +164,17 @@ void finish(Soundtrack& track, const ClipJob& job, std::size_t frames, const Fra
     // A condition of a study ends where the shortest one does, and its sound as it would with a cut.
     const bool ends_early = job.at_least && *range.last < frames;
     const double seconds = job.fps.seconds(ends_early ? *range.last : frames);
-    if (picture_decides(job)) {
+    if (picture_sets_length(job)) {
         fit_to_picture(track, job, seconds);
     } else {
-        track.sound = ends_early ? trim_to(*track.sound, seconds) : fit_to(*track.sound, seconds);
+        track.sound =
+            ends_early ? set_duration(*track.sound, seconds) : pad_with_silence(*track.sound, seconds);
     }
     if (job.spoken) track.sound = speak_over(*track.sound, *job.spoken);
     if (!job.loudness) keep_in_scale(track, job);
     track.sound = part_of(*track.sound, range, job.fps);
     if (!job.loudness) return;
-    LoudSound loud = bring_to(*track.sound, *job.loudness);
+    LoudSound loud = normalize_loudness(*track.sound, *job.loudness);
     track.sound = std::move(loud.sound);
     if (!loud.warning.empty()) track.warnings.push_back(format("{}: {}", name_of_sound(job), loud.warning));
     keep_in_scale(track, job);

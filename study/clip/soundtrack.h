@@ -20,8 +20,8 @@ struct Soundtrack {
 // or a part lies outside it.
 Soundtrack read_soundtrack(const ClipJob& job);
 
-// Whether the picture alone decides how long the clip is: a part of a sound is fitted to it.
-bool picture_decides(const ClipJob& job);
+// Whether the picture alone sets the length of the clip: the sound is then padded or cut to it.
+bool picture_sets_length(const ClipJob& job);
 
 // The sound of `range` of a clip of so many frames, exactly as long as they are, with the spoken notice and
 // as loud as the job asks for; none if the job is silent. Adds to the warnings what is missing or too much.

@@ -39,7 +39,7 @@ Audio make_tones(std::size_t count) {
         sound.samples[i] =
             static_cast<float>(0.2 * level * std::sin(2 * std::numbers::pi * kFrequency * time));
     }
-    return bring_to(sound, kBroadcastLoudness).sound;
+    return normalize_loudness(sound, kBroadcastLoudness).sound;
 }
 
 }  // namespace chironomia::study

@@ -16,7 +16,7 @@ double apart(const SpokenClip& a, const SpokenClip& b) {
     return std::abs(a.seconds - b.seconds) / std::max(a.seconds, b.seconds);
 }
 
-// Whom each clip may borrow from. Equal lengths are never too far apart, whatever rounding did.
+// By clip: the other clips that it may be paired with. Equal lengths are never too far apart, whatever rounding did.
 using Choices = std::vector<std::vector<std::size_t>>;
 
 Choices choices_within(const std::vector<SpokenClip>& clips, double tolerance) {
@@ -30,57 +30,58 @@ Choices choices_within(const std::vector<SpokenClip>& clips, double tolerance) {
     return choices;
 }
 
-// Bipartite matching by augmenting paths: a clip whose lenders are all taken takes the lender of another clip if that
-// clip can have a different one.
+// Bipartite matching by augmenting paths: clips on one side, their partners on the other. A clip whose possible
+// partners are all matched takes the partner of another clip if that clip can be matched with a different one.
 class Matching {
   public:
     explicit Matching(const Choices& choices)
-        : choices_(choices), lender_(choices.size()), borrower_(choices.size()) {}
+        : choices_(choices), partner_of_(choices.size()), clip_of_(choices.size()) {}
 
-    // Whether a lender could be found for this clip too.
-    bool serve(std::size_t clip) {
-        asked_.assign(choices_.size(), false);
-        asking_.clear();
-        return find(clip);
+    // Whether this clip could be matched too.
+    bool match(std::size_t clip) {
+        visited_.assign(choices_.size(), false);
+        tried_.clear();
+        return augment(clip);
     }
 
-    // The clips that compete for too few lenders, after serve() has failed.
+    // The clips that compete for too few partners, after match() has failed.
     std::vector<std::size_t> competitors() const {
-        std::vector<std::size_t> sorted = asking_;
+        std::vector<std::size_t> sorted = tried_;
         std::sort(sorted.begin(), sorted.end());
         return sorted;
     }
 
-    std::vector<std::size_t> lenders() const {
+    // By clip; all must be matched.
+    std::vector<std::size_t> partners() const {
         std::vector<std::size_t> all;
-        for (const auto& lender : lender_) all.push_back(*lender);
+        for (const auto& partner : partner_of_) all.push_back(*partner);
         return all;
     }
 
   private:
-    bool find(std::size_t clip) {
-        asking_.push_back(clip);
-        for (const std::size_t lender : choices_[clip]) {
-            if (asked_[lender]) continue;
-            asked_[lender] = true;
-            if (borrower_[lender] && !find(*borrower_[lender])) continue;
-            borrower_[lender] = clip;
-            lender_[clip] = lender;
+    bool augment(std::size_t clip) {
+        tried_.push_back(clip);
+        for (const std::size_t partner : choices_[clip]) {
+            if (visited_[partner]) continue;
+            visited_[partner] = true;
+            if (clip_of_[partner] && !augment(*clip_of_[partner])) continue;
+            clip_of_[partner] = clip;
+            partner_of_[clip] = partner;
             return true;
         }
         return false;
     }
 
     const Choices& choices_;
-    std::vector<std::optional<std::size_t>> lender_, borrower_;
-    std::vector<bool> asked_;
-    std::vector<std::size_t> asking_;
+    std::vector<std::optional<std::size_t>> partner_of_, clip_of_;
+    std::vector<bool> visited_;       // partners on the paths of this search
+    std::vector<std::size_t> tried_;  // clips on them
 };
 
-bool can_serve_all(const Choices& choices) {
+bool can_match_all(const Choices& choices) {
     Matching matching(choices);
     for (std::size_t clip = 0; clip < choices.size(); ++clip)
-        if (!matching.serve(clip)) return false;
+        if (!matching.match(clip)) return false;
     return true;
 }
 
@@ -92,7 +93,7 @@ std::optional<double> least_tolerance(const std::vector<SpokenClip>& clips) {
             if (clips[a].speaker == clips[b].speaker) steps.push_back(apart(clips[a], clips[b]));
     std::sort(steps.begin(), steps.end());
     const auto found = std::partition_point(steps.begin(), steps.end(), [&](double tolerance) {
-        return !can_serve_all(choices_within(clips, tolerance));
+        return !can_match_all(choices_within(clips, tolerance));
     });
     return found == steps.end() ? std::nullopt : std::optional(*found);
 }
@@ -123,8 +124,8 @@ std::vector<std::size_t> draw_mismatch(const std::vector<SpokenClip>& clips, con
     random.shuffle(order);
     Matching matching(choices);
     for (const std::size_t clip : order)
-        if (!matching.serve(clip)) refuse(clips, matching.competitors(), options.tolerance);
-    return matching.lenders();
+        if (!matching.match(clip)) refuse(clips, matching.competitors(), options.tolerance);
+    return matching.partners();
 }
 
 }  // namespace chironomia::study

@@ -13,7 +13,7 @@ namespace chironomia::study {
 namespace {
 
 constexpr std::size_t kResamples = 1000;
-constexpr std::size_t kFewestRaters = 3;  // two are the same two in every resample
+constexpr std::size_t kFewestRaters = 3;  // resampling two raters gives no variation
 
 // The ratings of one unit.
 struct UnitRating {
@@ -172,7 +172,7 @@ MeanSquares mean_squares_of(const std::vector<std::vector<double>>& ratings) {
 }
 
 // Shrout and Fleiss, page 424: the interval of ICC(2,1). The degrees of freedom vanish where all targets have
-// one mean; so few have no quantile that a number could hold.
+// one mean; for so few of them the quantile overflows.
 std::optional<Interval> interval_of_one_rater(const MeanSquares& squares, double icc, double n, double k) {
     const double f = squares.raters / squares.rest;
     const double part = n * (1 + (k - 1) * icc) - k * icc;

@@ -12,7 +12,7 @@
 namespace chironomia::study {
 namespace {
 
-constexpr double kBridge = 0.1;  // of a vote, where strengths have no bound
+constexpr double kPseudoVotes = 0.1;  // added each way to compared pairs, where strengths have no bound
 
 void add_vote(VoteTable& table, const Vote& vote) {
     assert(vote.first != vote.second);
@@ -62,7 +62,7 @@ struct Ends {
 };
 
 // Which ends of each strength, beside the mean of all, have no bound. Where a condition won all against some and lost
-// all against others, or nothing joins it to others, that is either.
+// all against others, or was never compared with others, both ends are unbounded.
 std::vector<Ends> ends_without_bound(const VoteTable& table) {
     const std::size_t n = table.conditions;
     std::vector<std::vector<bool>> beaten;  // over any number of others
@@ -153,13 +153,13 @@ struct Fit {
     bool bounded = true;
 };
 
-// `compared` holds the votes that say which conditions may be bridged.
+// `compared` holds the votes that say which pairs get pseudo-votes where strengths have no bound.
 Fit fit(VoteTable table, const VoteTable& compared, const std::vector<double>& begin) {
     Fit result{.bounded = is_bounded(table)};
     if (!result.bounded) {
         for (std::size_t i = 0; i < table.conditions; ++i) {
             for (std::size_t j = 0; j < table.conditions; ++j) {
-                if (compared.at(i, j) + compared.at(j, i) > 0) table.at(i, j) += kBridge;
+                if (compared.at(i, j) + compared.at(j, i) > 0) table.at(i, j) += kPseudoVotes;
             }
         }
     }

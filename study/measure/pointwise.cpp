@@ -22,31 +22,32 @@ void PairSums::add(const PairSums& other, double times) {
     n += times * other.n;
     absolute += times * other.absolute;
     squared += times * other.squared;
-    y += times * other.y;
-    z += times * other.z;
-    yy += times * other.yy;
-    zz += times * other.zz;
-    yz += times * other.yz;
-    active_y += times * other.active_y;
-    active_z += times * other.active_z;
+    truth += times * other.truth;
+    predicted += times * other.predicted;
+    truth_squared += times * other.truth_squared;
+    predicted_squared += times * other.predicted_squared;
+    product += times * other.product;
+    active_truth += times * other.active_truth;
+    active_predicted += times * other.active_predicted;
     active_both += times * other.active_both;
 }
 
-PairSums sums_of(std::span<const float> y, std::span<const float> z, double threshold, double origin) {
-    assert(y.size() == z.size());
-    PairSums sums{.n = static_cast<double>(y.size())};
-    for (std::size_t t = 0; t < y.size(); ++t) {
-        const double a = y[t] - origin, b = z[t] - origin;
+PairSums sums_of(std::span<const float> truth, std::span<const float> predicted, double threshold,
+                 double origin) {
+    assert(truth.size() == predicted.size());
+    PairSums sums{.n = static_cast<double>(truth.size())};
+    for (std::size_t t = 0; t < truth.size(); ++t) {
+        const double a = truth[t] - origin, b = predicted[t] - origin;
         sums.absolute += std::abs(a - b);
         sums.squared += (a - b) * (a - b);
-        sums.y += a;
-        sums.z += b;
-        sums.yy += a * a;
-        sums.zz += b * b;
-        sums.yz += a * b;
-        sums.active_y += y[t] > threshold;
-        sums.active_z += z[t] > threshold;
-        sums.active_both += y[t] > threshold && z[t] > threshold;
+        sums.truth += a;
+        sums.predicted += b;
+        sums.truth_squared += a * a;
+        sums.predicted_squared += b * b;
+        sums.product += a * b;
+        sums.active_truth += truth[t] > threshold;
+        sums.active_predicted += predicted[t] > threshold;
+        sums.active_both += truth[t] > threshold && predicted[t] > threshold;
     }
     return sums;
 }
@@ -64,33 +65,36 @@ std::optional<double> pearson(const PairSums& sums) {
     // What rounding leaves of the variance of a series that does not vary, as a share of its square.
     constexpr double kNothing = 1e-12;
     if (!(sums.n > 1)) return std::nullopt;
-    const double vary_y = sums.yy - sums.y * sums.y / sums.n;
-    const double vary_z = sums.zz - sums.z * sums.z / sums.n;
-    if (!(vary_y > kNothing * sums.yy) || !(vary_z > kNothing * sums.zz)) return std::nullopt;
-    return (sums.yz - sums.y * sums.z / sums.n) / (std::sqrt(vary_y) * std::sqrt(vary_z));
+    const double vary_truth = sums.truth_squared - sums.truth * sums.truth / sums.n;
+    const double vary_predicted = sums.predicted_squared - sums.predicted * sums.predicted / sums.n;
+    if (!(vary_truth > kNothing * sums.truth_squared) ||
+        !(vary_predicted > kNothing * sums.predicted_squared))
+        return std::nullopt;
+    return (sums.product - sums.truth * sums.predicted / sums.n) /
+           (std::sqrt(vary_truth) * std::sqrt(vary_predicted));
 }
 
-std::optional<double> pearson(std::span<const float> y, std::span<const float> z) {
-    assert(y.size() == z.size());
-    if (y.empty()) return std::nullopt;
+std::optional<double> pearson(std::span<const float> a, std::span<const float> b) {
+    assert(a.size() == b.size());
+    if (a.empty()) return std::nullopt;
     // The origin of each is its own first value: what does not vary is then exactly 0.
-    PairSums sums{.n = static_cast<double>(y.size())};
-    for (std::size_t t = 0; t < y.size(); ++t) {
-        const double a = double(y[t]) - y[0], b = double(z[t]) - z[0];
-        sums.y += a;
-        sums.z += b;
-        sums.yy += a * a;
-        sums.zz += b * b;
-        sums.yz += a * b;
+    PairSums sums{.n = static_cast<double>(a.size())};
+    for (std::size_t t = 0; t < a.size(); ++t) {
+        const double x = double(a[t]) - a[0], y = double(b[t]) - b[0];
+        sums.truth += x;
+        sums.predicted += y;
+        sums.truth_squared += x * x;
+        sums.predicted_squared += y * y;
+        sums.product += x * y;
     }
     return pearson(sums);
 }
 
 HitRates hit_rates(const PairSums& sums) {
-    return {.ahr = percent(sums.active_z, sums.active_y),
-            .nahr = percent(sums.n - sums.active_z, sums.n - sums.active_y),
-            .precision = ratio(sums.active_both, sums.active_z),
-            .recall = ratio(sums.active_both, sums.active_y)};
+    return {.ahr = percent(sums.active_predicted, sums.active_truth),
+            .nahr = percent(sums.n - sums.active_predicted, sums.n - sums.active_truth),
+            .precision = ratio(sums.active_both, sums.active_predicted),
+            .recall = ratio(sums.active_both, sums.active_truth)};
 }
 
 }  // namespace chironomia::study

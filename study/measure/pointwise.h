@@ -10,33 +10,34 @@ namespace chironomia::study {
 // Sums over frames, from which the pointwise metrics of any set of utterances follow: add them up.
 struct PairSums {
     double n = 0;
-    double absolute = 0;                // |y - z|
-    double squared = 0;                 // (y - z)^2
-    double y = 0, z = 0;                // y and z less the origin
-    double yy = 0, zz = 0, yz = 0;      // products of these
-    double active_y = 0, active_z = 0;  // frames above the threshold
-    double active_both = 0;             // in both
+    double absolute = 0;                                           // |truth - predicted|
+    double squared = 0;                                            // (truth - predicted)^2
+    double truth = 0, predicted = 0;                               // each less the origin
+    double truth_squared = 0, predicted_squared = 0, product = 0;  // of these
+    double active_truth = 0, active_predicted = 0;                 // frames above the threshold
+    double active_both = 0;                                        // in both
 
     void add(const PairSums& other, double times = 1);
 };
 
-// The truth y and the prediction z, equally long; `origin` is taken off both so that products stay exact.
-PairSums sums_of(std::span<const float> y, std::span<const float> z, double threshold, double origin = 0);
+// Of two series of equal length; `origin` is taken off both so that products stay exact.
+PairSums sums_of(std::span<const float> truth, std::span<const float> predicted, double threshold,
+                 double origin = 0);
 
-// sqrt(mean (y - z)^2) and mean |y - z|. None of no frames.
+// sqrt(mean (truth - predicted)^2) and mean |truth - predicted|. None of no frames.
 std::optional<double> rmse(const PairSums& sums);
 std::optional<double> mean_absolute_error(const PairSums& sums);
-// cov(y, z) / (s_y s_z), Pearson. None where one of both does not vary.
+// Pearson's correlation, cov(a, b) / (s_a s_b), of the two series. None where one of the two does not vary.
 std::optional<double> pearson(const PairSums& sums);
-std::optional<double> pearson(std::span<const float> y, std::span<const float> z);
+std::optional<double> pearson(std::span<const float> a, std::span<const float> b);
 
 // Activations of action units, after Ong et al. 2017 as Fares 2023, section 5.7, uses them: a unit is active
 // above the threshold.
 struct HitRates {
-    std::optional<double> ahr;        // 100 * active frames of z / of y; can exceed 100
+    std::optional<double> ahr;        // 100 * active frames predicted / true; can exceed 100
     std::optional<double> nahr;       // the same of frames that are not active
-    std::optional<double> precision;  // share of the active frames of z in which y is active
-    std::optional<double> recall;     // share of the active frames of y in which z is active
+    std::optional<double> precision;  // share of the predicted active frames that are active in truth
+    std::optional<double> recall;     // share of the true active frames that are predicted
 };
 
 // Each is none where its denominator is 0.

@@ -176,9 +176,9 @@ double barnard_exact(std::size_t k1, std::size_t n1, std::size_t k2, std::size_t
     std::vector<double> course;
     for (std::size_t i = 0; i < kSteps; ++i) course.push_back(chance(angle(i)));
     double largest = *std::max_element(course.begin(), course.end());
-    const double worth_a_look = 0.99 * largest;
+    const double near_maximum = 0.99 * largest;
     for (std::size_t i = 1; i + 1 < kSteps; ++i) {
-        if (course[i] < worth_a_look || course[i] < course[i - 1] || course[i] < course[i + 1]) continue;
+        if (course[i] < near_maximum || course[i] < course[i - 1] || course[i] < course[i + 1]) continue;
         largest = std::max(largest, peak_between(chance, angle(i - 1), angle(i + 1)));
     }
     return std::min(1.0, largest);

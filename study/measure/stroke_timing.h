@@ -20,7 +20,7 @@ using SpeedEnvelope = std::vector<std::optional<float>>;
 SpeedEnvelope wrist_speeds(const PointPaths& paths, std::span<const std::size_t> wrists,
                            double smoothing = 0.2);
 
-// Pearson's r of two envelopes over the steps that both have; the longer one is cut. None where one of both
+// Pearson's r of two envelopes over the steps that both have; the longer one is cut. None where one of the two
 // does not vary.
 std::optional<double> envelope_correlation(const SpeedEnvelope& a, const SpeedEnvelope& b);
 
@@ -30,7 +30,7 @@ struct TimedClip {
     SpeedEnvelope source;
 };
 
-// Means over clips; clips in which one of both does not vary have no correlation.
+// Means over clips; clips in which one of the two does not vary have no correlation.
 struct StrokeTiming {
     Bootstrapped correlation;           // of each clip with its own source; interval from resampled clips
     std::size_t undefined = 0;          // clips without a correlation

@@ -48,13 +48,13 @@ FeatureData data_of(const Predictions& predictions, std::size_t feature, Activat
     const double threshold = activation == ActivationScale::raw ? (kActive - low) / (high - low) : kActive;
     FeatureData data{.range = high - low};
     for (std::size_t i = 0; i < predictions.items.size(); ++i) {
-        const auto y = column_of(predictions.items[i], &PredictedItem::truth, feature, width);
-        const auto z = column_of(predictions.items[i], &PredictedItem::prediction, feature, width);
-        data.sums.push_back(sums_of(y, z, threshold, predictions.items[0].truth[feature]));
-        data.pearson.push_back(pearson(y, z));
-        data.truth.insert(data.truth.end(), y.begin(), y.end());
-        data.prediction.insert(data.prediction.end(), z.begin(), z.end());
-        data.items.insert(data.items.end(), y.size(), i);
+        const auto truth = column_of(predictions.items[i], &PredictedItem::truth, feature, width);
+        const auto predicted = column_of(predictions.items[i], &PredictedItem::prediction, feature, width);
+        data.sums.push_back(sums_of(truth, predicted, threshold, predictions.items[0].truth[feature]));
+        data.pearson.push_back(pearson(truth, predicted));
+        data.truth.insert(data.truth.end(), truth.begin(), truth.end());
+        data.prediction.insert(data.prediction.end(), predicted.begin(), predicted.end());
+        data.items.insert(data.items.end(), truth.size(), i);
     }
     return data;
 }

@@ -48,7 +48,7 @@ void measure_against(const Motion& motion, const Motion& reference, MotionMeasur
 void measure_style(const Motion& motion, const Motion& source, const Motion& target,
                    MotionMeasures& measures);
 
-// Frames that a reader bridged count, and a note says how many. Throws Error if one of both faces has no AU12.
+// Frames that a reader bridged count, and a note says how many. Throws Error if one of the two faces has no AU12.
 void measure_pair(const Motion& motion, const Motion& partner, MotionMeasures& measures);
 
 // Beat alignment (BC) with the onsets of the sound of the upper body, relative to the middle of the shoulders

@@ -142,7 +142,7 @@ Json to_places(const Json& value, const Question& question, const std::vector<st
 
 Json to_shown(const Json& value, const Question& question, const std::vector<std::size_t>& order,
               Layout layout) {
-    // What moves a place to where it is shown is the order the other way round.
+    // The inverse permutation of the order moves each place to where it is shown.
     std::vector<std::size_t> shown_at(order.size());
     for (std::size_t shown = 0; shown < order.size(); ++shown) shown_at[order[shown]] = shown;
     return to_places(value, question, shown_at, layout);

@@ -8,7 +8,7 @@
 namespace chironomia::study {
 namespace {
 
-// One video that shows all places has them as they are.
+// One video that shows both figures keeps their order.
 std::vector<std::size_t> all_places(const PageAnswer& answer, const KeyPage& page) {
     std::vector<std::size_t> order = answer.order;
     for (std::size_t place = order.size(); place < page.places.size(); ++place) order.push_back(place);

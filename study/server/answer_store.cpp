@@ -149,18 +149,18 @@ std::string AnswerStore::free_name(const std::string& wanted) {
     return name;
 }
 
-void AnswerStore::note_sign_of_life(std::int64_t participant, std::int64_t now) {
+void AnswerStore::mark_active(std::int64_t participant, std::int64_t now) {
     database_.prepare("UPDATE participants SET seen = ?2, declined = 0 WHERE id = ?1")
         .bind(1, participant)
         .bind(2, now)
         .step();
 }
 
-void AnswerStore::move_signs_of_life(std::int64_t by) {
+void AnswerStore::shift_last_active(std::int64_t by) {
     database_.prepare("UPDATE participants SET seen = seen + ?1 WHERE finished IS NULL").bind(1, by).step();
 }
 
-void AnswerStore::end_signs_of_life_at(std::int64_t now) {
+void AnswerStore::limit_last_active(std::int64_t now) {
     database_.prepare("UPDATE participants SET seen = ?1 WHERE seen > ?1").bind(1, now).step();
 }
 

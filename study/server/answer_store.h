@@ -22,7 +22,7 @@ struct Participant {
     std::string arrived_with;  // JSON object of texts
     std::string browser;
     std::int64_t started = 0;
-    std::int64_t seen = 0;  // the last sign of life
+    std::int64_t seen = 0;  // last active
     std::optional<std::int64_t> finished{};
     std::string questionnaire = "{}";  // JSON object of values
     bool failed = false;               // too many attention checks
@@ -53,11 +53,11 @@ class AnswerStore {
 
     // Chooses the id; and where there is no name, or another participant has it, another one: "p-7", "ada-2".
     void add(const Participant& participant);
-    void note_sign_of_life(std::int64_t participant, std::int64_t now);  // and has not declined
+    void mark_active(std::int64_t participant, std::int64_t now);  // seen now, and has not declined
     // The clock was set by so many milliseconds: participants at work still are.
-    void move_signs_of_life(std::int64_t by);
+    void shift_last_active(std::int64_t by);
     // None is later than `now`: a clock that was set back while no server ran would keep places taken.
-    void end_signs_of_life_at(std::int64_t now);
+    void limit_last_active(std::int64_t now);
     void finish(const Participant& participant);  // finished, questionnaire, failed
     void decline(std::int64_t participant);
 

@@ -15,7 +15,7 @@ constexpr std::size_t kLongestEvent = 100;    // bytes
 constexpr int kDeepest = 16;
 constexpr double kLongestPage = 7 * 24 * 3600;  // seconds: a browser left open for a week
 
-// 2.0 is none to the analysis either.
+// The analysis does not accept 2.0 as a whole number either.
 bool is_whole(const Json& value) {
     return value.is_number_integer();
 }

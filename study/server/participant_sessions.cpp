@@ -23,7 +23,7 @@ bool is_text(const Json& value, std::size_t longest) {
     return value.is_string() && value.get_ref<const std::string&>().size() <= longest;
 }
 
-// Names go into tables and names of files: no NUL, no line break, nothing that a terminal obeys.
+// Names go into tables and names of files: no control characters, such as NUL or line breaks.
 bool is_plain_text(const Json& value, std::size_t longest) {
     if (!is_text(value, longest)) return false;
     const auto& text = value.get_ref<const std::string&>();
@@ -138,7 +138,7 @@ Reply ParticipantSessions::begin(AnswerStore& store, const Json& body, const Arr
                                   .seen = arrival.now};
         store.add(*participant);
     } else {
-        store.note_sign_of_life(participant->id, arrival.now);
+        store.mark_active(participant->id, arrival.now);
     }
     return {.status = 200,
             .body = {{"session", participant->session},
@@ -155,7 +155,7 @@ Reply ParticipantSessions::answer(AnswerStore& store, const Json& body, std::int
         return refusal(400, "number: a whole number from 0 is needed");
     }
     if (!body.contains("answer")) return refusal(400, "answer: it is missing");
-    store.note_sign_of_life(participant->id, now);
+    store.mark_active(participant->id, now);
     const auto number = body["number"].get<std::size_t>();
     return store_answer(
         store, *participant,
@@ -227,7 +227,7 @@ Reply ParticipantSessions::finish(AnswerStore& store, const Json& body, std::int
     participant->questionnaire = questionnaire.dump();
     participant->failed =
         failed_checks(study_.key, study_.pages, answers).size() >= study_.key.exclusions.failed_checks;
-    store.note_sign_of_life(participant->id, now);
+    store.mark_active(participant->id, now);
     store.finish(*participant);
     return {.status = 200, .body = {{"completion", completion_of(*participant)}}};
 }

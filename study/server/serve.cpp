@@ -140,7 +140,7 @@ struct StudyServer::Parts {
                 .sent_away = [this] { return http.sent_away(); }}) {
         leave_mark(options.study);
         check_sheets();
-        store.end_signs_of_life_at(options.clocks.unix_time());
+        store.limit_last_active(options.clocks.unix_time());
         warn_if_full(options);
     }
 

@@ -127,7 +127,7 @@ std::int64_t Site::now() {
     const std::int64_t time = options_.clocks.unix_time();
     const std::int64_t jump = clock_.jump(time, options_.clocks.steady_time());
     if (jump == 0) return time;
-    queue_.run([&](AnswerStore& store) { store.move_signs_of_life(jump); });
+    queue_.run([&](AnswerStore& store) { store.shift_last_active(jump); });
     const std::string what = format(
         "the clock of this machine was set {} by {} s; times of answers before and after do not compare",
         jump > 0 ? "forward" : "back", std::abs(jump) / 1000);
@@ -190,7 +190,7 @@ HttpResponse Site::gate(const HttpRequest& request) {
     if (request.method != "POST") return {};
     if (logs_in) return {};
     if (!is_below(request.path, "/api")) return refusal(405, "only GET and HEAD are answered here");
-    // A page of another site cannot send this type without being asked for leave, which is not given.
+    // From a page of another site this type needs a CORS preflight, which is refused.
     if (!to_lower(header_of(request, "content-type")).starts_with("application/json")) {
         return refusal(415, "the body must be application/json");
     }

@@ -82,7 +82,7 @@ void check_rate(const RecordFile& file) {
 }  // namespace
 
 void write_interval_file(const std::filesystem::path& path, const IntervalRecord& record) {
-    constexpr auto kHalved = Hdf5Writer::Packing::halved;
+    constexpr auto kFloat16 = Hdf5Writer::Packing::float16;
     check_record(record, path.string());
     const std::size_t frames = record.frames();
     PendingOutput pending(path, PendingOutput::Kind::file);
@@ -91,13 +91,13 @@ void write_interval_file(const std::filesystem::path& path, const IntervalRecord
     file.make_group("audio");
     file.write_floats("audio/log_mel_400",
                       {record.mel_400.size() / IntervalRecord::kMel400, IntervalRecord::kMel400},
-                      record.mel_400, kHalved);
+                      record.mel_400, kFloat16);
     file.write_floats("audio/log_mel_512",
                       {record.mel_512.size() / IntervalRecord::kMel512, IntervalRecord::kMel512},
-                      record.mel_512, kHalved);
+                      record.mel_512, kFloat16);
     if (!record.silence.empty()) file.write_bytes("audio/silence", {frames}, record.silence);
     file.make_group("text");
-    file.write_floats("text/bert", {frames, kWordVector}, record.vectors, kHalved);
+    file.write_floats("text/bert", {frames, kWordVector}, record.vectors, kFloat16);
     file.write_ints("text/tokens", {frames}, record.tokens);
     write_words(file, "text/words", "text/word_times", record.words);
     if (!record.face.empty()) {

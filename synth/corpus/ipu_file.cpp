@@ -22,7 +22,7 @@ namespace chironomia {
 namespace {
 
 constexpr auto kDeflated = Hdf5Writer::Packing::deflated;
-constexpr auto kHalved = Hdf5Writer::Packing::halved;
+constexpr auto kFloat16 = Hdf5Writer::Packing::float16;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ void write_ipu_file(const std::filesystem::path& path, const IpuRecord& record) 
     file.write_attribute("start", record.start);
     file.write_attribute("fps_video", record.fps);
     write_words(file, "words", "word_times", record.words);
-    file.write_floats("bert", {words, kWordVector}, record.vectors, kHalved);
+    file.write_floats("bert", {words, kWordVector}, record.vectors, kFloat16);
     file.write_floats("f0", {samples}, record.f0, kDeflated);
     file.write_floats("f0_conf", {samples}, record.f0_strength, kDeflated);
     file.write_floats("vq", {samples, IpuRecord::kVoice}, record.voice, kDeflated);

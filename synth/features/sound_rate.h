@@ -11,7 +11,7 @@ inline constexpr int kFeatureRate = 16000;  // at which pitch, cepstra and voice
 
 // The mean of all channels at `rate` [Hz] > 0: ceil(length * rate / sound.rate) samples, sample i at
 // i / rate seconds. Band-limited by a windowed sinc (Kaiser, beta 10, 64 zero crossings to each side):
-// flat within 0.01 dB up to 90 % of the lower one of both half rates, and 95 dB down from that half rate on;
+// flat within 0.01 dB up to 90 % of the lower of the two half rates, and 95 dB down from that half rate on;
 // silence is taken to go on before and after the sound. A sound that has the rate keeps its samples.
 Audio bring_to_rate(const Audio& sound, int rate);
 

@@ -206,7 +206,7 @@ class GesturePlanner {
         Random random(plan_.seed, act.mark);
         choice.left_hand = random.uniform() < (1 - plan_.style.speaker.handedness) / 2;
         random.shuffle(choice.order);
-        // One beat is not enough for all that beats show.
+        // If one beat alone matches, other beats may be shown too.
         if (is_shown_by_beats(mark.kind) && choice.order.size() == 1) {
             std::vector<std::size_t> others = repertoire_.beats();
             random.shuffle(others);

@@ -13,7 +13,7 @@ using ::testing::IsEmpty;
 using testing::tone;
 
 TEST(AgreeLength, LeavesASilentClipToItsMotion) {
-    const ClipLength length = agree_length(210, {30, 1}, nullptr);
+    const ClipLength length = match_lengths(210, {30, 1}, nullptr);
     EXPECT_EQ(length.frames, 210u);
     EXPECT_EQ(length.held_frames, 0u);
     EXPECT_EQ(length.silence_s, 0.0);
@@ -22,7 +22,7 @@ TEST(AgreeLength, LeavesASilentClipToItsMotion) {
 
 TEST(AgreeLength, ChangesNothingWhenBothEndTogether) {
     const Audio sound = tone(7, 44100);
-    const ClipLength length = agree_length(210, {30, 1}, &sound);
+    const ClipLength length = match_lengths(210, {30, 1}, &sound);
     EXPECT_EQ(length.frames, 210u);
     EXPECT_EQ(length.silence_s, 0.0);
     EXPECT_THAT(length.warnings, IsEmpty());
@@ -30,7 +30,7 @@ TEST(AgreeLength, ChangesNothingWhenBothEndTogether) {
 
 TEST(AgreeLength, FillsShorterSoundWithSilence) {
     const Audio sound = tone(5, 16000);
-    const ClipLength length = agree_length(210, {30, 1}, &sound);
+    const ClipLength length = match_lengths(210, {30, 1}, &sound);
     EXPECT_EQ(length.frames, 210u);
     EXPECT_DOUBLE_EQ(length.silence_s, 2.0);
     EXPECT_THAT(length.warnings,
@@ -39,7 +39,7 @@ TEST(AgreeLength, FillsShorterSoundWithSilence) {
 
 TEST(AgreeLength, HoldsTheLastPoseUntilLongerSoundIsOver) {
     const Audio sound = tone(8.01, 48000);
-    const ClipLength length = agree_length(210, {30, 1}, &sound);
+    const ClipLength length = match_lengths(210, {30, 1}, &sound);
     EXPECT_EQ(length.frames, 241u);  // 8.01 s are 240.3 frames, and nothing is cut
     EXPECT_EQ(length.held_frames, 31u);
     EXPECT_NEAR(length.silence_s, 241 / 30.0 - 8.01, 1e-9);
@@ -50,25 +50,25 @@ TEST(AgreeLength, HoldsTheLastPoseUntilLongerSoundIsOver) {
 
 TEST(AgreeLength, AcceptsADifferenceOfOneFrameInSilence) {
     const Audio longer = tone(7 + 1 / 30.0, 48000);
-    EXPECT_EQ(agree_length(210, {30, 1}, &longer).frames, 210u);
-    EXPECT_THAT(agree_length(210, {30, 1}, &longer).warnings, IsEmpty());
+    EXPECT_EQ(match_lengths(210, {30, 1}, &longer).frames, 210u);
+    EXPECT_THAT(match_lengths(210, {30, 1}, &longer).warnings, IsEmpty());
     const Audio shorter = tone(6.98, 48000);
-    EXPECT_NEAR(agree_length(210, {30, 1}, &shorter).silence_s, 0.02, 1e-9);
-    EXPECT_THAT(agree_length(210, {30, 1}, &shorter).warnings, IsEmpty());
+    EXPECT_NEAR(match_lengths(210, {30, 1}, &shorter).silence_s, 0.02, 1e-9);
+    EXPECT_THAT(match_lengths(210, {30, 1}, &shorter).warnings, IsEmpty());
 }
 
 TEST(AgreeLength, CountsExactlyAtTelevisionRates) {
     const Audio sound{48000, 1, std::vector<float>(48048 * 10)};  // 10.01 s: 300 frames of 1001/30000 s
-    const ClipLength length = agree_length(150, {30000, 1001}, &sound);
+    const ClipLength length = match_lengths(150, {30000, 1001}, &sound);
     EXPECT_EQ(length.frames, 300u);
     EXPECT_NEAR(length.silence_s, 0, 1e-12);
 }
 
 TEST(FitTo, AddsSilenceAndNeverCuts) {
     const Audio sound{10, 2, {1, 2, 3, 4}};
-    EXPECT_EQ(fit_to(sound, 0.4).samples, (std::vector<float>{1, 2, 3, 4, 0, 0, 0, 0}));
-    EXPECT_EQ(fit_to(sound, 0.1).samples, sound.samples);
-    EXPECT_EQ(fit_to(sound, -1).samples, sound.samples);
+    EXPECT_EQ(pad_with_silence(sound, 0.4).samples, (std::vector<float>{1, 2, 3, 4, 0, 0, 0, 0}));
+    EXPECT_EQ(pad_with_silence(sound, 0.1).samples, sound.samples);
+    EXPECT_EQ(pad_with_silence(sound, -1).samples, sound.samples);
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ double spread_of_frames(const KeypointData& data) {
     return median(spreads);
 }
 
-// Whether the third numbers of a body in a picture are no depth, by left_of_changes; nothing where it hardly moves.
+// Whether the third numbers of a body in a picture are no depth, by residual_changes; nothing where it hardly moves.
 // Throws Error where bones contradict it.
 std::optional<bool> are_no_depth(const KeypointData& data, const std::filesystem::path& name_map) {
     KeypointData picture = data;
@@ -97,10 +97,10 @@ std::optional<bool> are_no_depth(const KeypointData& data, const std::filesystem
     }
     naming.zero_is_missing = true;
     const KeypointTrack track = track_of(data, naming);
-    const auto left = left_of_changes(track);
-    if (!left || *left < kLeftOfDepth) return left ? std::optional(false) : std::nullopt;
-    const auto in_space = odd_bones(track),
-               in_picture = odd_bones(track_of(picture, naming), Seen::in_picture);
+    const auto left = residual_changes(track);
+    if (!left || *left < kMostResidualOfDepth) return left ? std::optional(false) : std::nullopt;
+    const auto in_space = implausible_bones(track),
+               in_picture = implausible_bones(track_of(picture, naming), Seen::in_picture);
     if (in_space >= in_picture) return true;
     throw Error(format(
         "{}: the third numbers of points may be a depth or scores of a detector: bones have more of a body's "

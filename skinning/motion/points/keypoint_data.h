@@ -68,7 +68,7 @@ struct KeypointData {
 //   name_map   JSON {"their name": "our name"}, null or "-" to drop a point; files without names count from "0"
 // Where the third number of a point has no name it is a confidence, and the points are those of a picture, if it lies
 // between 0 and 1 everywhere, or hardly changes, while the points spread over many units: no body is that flat; or if
-// it is a score above 0 that does not make up for the lengths that bones of a picture lack (left_of_changes). Scores
+// it is a score above 0 that does not make up for the lengths that bones of a picture lack (residual_changes). Scores
 // above 1, also those that the file names, are divided by the usual one. Throws Error if the points are not known,
 // third numbers may be either, the rate is missing, or a place is no number although it is not missing.
 Motion name_keypoints(KeypointData data, std::optional<double> fps, const std::filesystem::path& name_map);

@@ -145,7 +145,7 @@ std::optional<double> oddness_in_picture(const KeypointData& data, PointNaming n
         if (wide != 1 && !are_shares) continue;
         KeypointTrack shaped = track;
         for (Vec3& point : shaped.points) point.x *= wide;
-        const auto places = odd_places(shaped), bones = odd_bones(shaped, Seen::in_picture);
+        const auto places = implausible_places(shaped), bones = implausible_bones(shaped, Seen::in_picture);
         if (places && bones) least = std::min(least.value_or(*places + *bones), *places + *bones);
     }
     return least;
@@ -202,7 +202,7 @@ struct BodyOdds {
 
 BodyOdds odds_of(const KeypointData& data, const PointNaming& naming) {
     const KeypointTrack track = without_zeros(data, naming);
-    return {.bones = odd_bones(track), .places = odd_arrangement(track)};
+    return {.bones = implausible_bones(track), .places = odd_arrangement(track)};
 }
 
 // Numbers that are called like points may be turns or velocities of joints.
@@ -210,7 +210,8 @@ void refuse_odd_body(const KeypointData& data, const PointNaming& naming) {
     if (data.picture || data.in_space || data.known_order || data.names.empty()) return;
     BodyOdds odds = odds_of(data, naming);
     // Turns of joints that do not move are 0 as well.
-    if (!odds.bones && !naming.zero_is_missing) odds.bones = odd_bones(TrackMaker(data, naming).run());
+    if (!odds.bones && !naming.zero_is_missing)
+        odds.bones = implausible_bones(TrackMaker(data, naming).run());
     if (!odds.are_too_odd()) return;
     throw Error(format(
         "{}: the points by their names make no body: {}; give places, not turns or velocities, or name "
@@ -233,7 +234,7 @@ PointNaming name_by_count(const KeypointData& data) {
     double least = 0;
     for (const KeypointLayout& layout : layouts) {
         PointNaming naming = naming_of(layout, format("keypoints: {}, by the number of points", layout.name));
-        const std::optional<double> odd = odd_bones(without_zeros(data, naming));
+        const std::optional<double> odd = implausible_bones(without_zeros(data, naming));
         if (layouts.size() > 1 && !odd) continue;
         if (best && odd.value_or(0) >= least) continue;
         least = odd.value_or(0);

@@ -256,7 +256,7 @@ bool is_body_in_other_order(const KeypointTrack& places) {
                 const auto landmark = right_first ? landmark_named(name) : std::nullopt;
                 track.names[j] = landmark ? std::string(name_of(mirrored(*landmark))) : name;
             }
-            if (odd_bones(track).value_or(1) < kTooOdd &&
+            if (implausible_bones(track).value_or(1) < kTooOdd &&
                 odd_arrangement(track).value_or(1) < kTooOddArrangement)
                 return true;
         }
@@ -341,8 +341,8 @@ bool are_turns(const NumpyArray& array) {
     const KeypointTrack places = taken_for_places(array, joints);
     const bool near = std::all_of(places.points.begin(), places.points.end(),
                                   [](const Vec3& turn) { return !(length(turn) > kAllRound); });
-    return near && odd_bones(places).value_or(0) >= kTooOdd && count_rigid_pairs(places) < kFewestBones &&
-           !is_body_in_other_order(places);
+    return near && implausible_bones(places).value_or(0) >= kTooOdd &&
+           count_rigid_pairs(places) < kFewestBones && !is_body_in_other_order(places);
 }
 
 bool holds_smpl(const std::vector<NumpyArray>& arrays) {

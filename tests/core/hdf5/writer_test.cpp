@@ -29,8 +29,8 @@ std::vector<std::byte> written(const std::filesystem::path& file) {
     writer.write_ints("counts", {2}, std::vector<int>{-1, 70000});
     writer.write_doubles("times", {1, 1}, std::vector<double>{0.1});
     writer.write_texts("words", {"well", "naïve"});
-    writer.write_floats("halved", {2, 2}, std::vector<float>{1, -0.25f, 65504, 1.0f / 3},
-                        Hdf5Writer::Packing::halved);
+    writer.write_floats("float16", {2, 2}, std::vector<float>{1, -0.25f, 65504, 1.0f / 3},
+                        Hdf5Writer::Packing::float16);
     writer.write_attribute("version", 3);
     writer.write_attribute("fps", 23.976);
     writer.write_attribute("speaker", "Zoë", "many");
@@ -52,7 +52,7 @@ TEST(Hdf5Writer, WritesWhatTheReaderReads) {
     EXPECT_THAT(file.read_numbers("times", {1, 1}), ElementsAre(0.1));
     EXPECT_THAT(file.read_texts("words"), ElementsAre("well", "naïve"));
     // A third has the nearest 11 bits.
-    EXPECT_THAT(file.read_numbers("halved", {2, 2}), ElementsAre(1, -0.25, 65504, 1365.0 / 4096));
+    EXPECT_THAT(file.read_numbers("float16", {2, 2}), ElementsAre(1, -0.25, 65504, 1365.0 / 4096));
     EXPECT_EQ(file.attribute("", "version"), 3);
     EXPECT_EQ(file.attribute("", "fps"), 23.976);
     EXPECT_EQ(file.text_attribute("many", "speaker"), "Zoë");

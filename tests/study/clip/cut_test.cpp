@@ -112,11 +112,11 @@ TEST(ReadCut, ReadsNoFurtherThanItMust) {
 
 TEST(TrimTo, AddsSilenceOrFadesOut) {
     const Audio sound{.rate = 1000, .channels = 2, .samples = std::vector<float>(200, 1)};
-    const Audio longer = trim_to(sound, 0.15);
+    const Audio longer = set_duration(sound, 0.15);
     EXPECT_EQ(longer.length(), 150u);
     EXPECT_EQ(longer.samples[199], 1);
     EXPECT_EQ(longer.samples[200], 0);
-    const Audio shorter = trim_to(sound, 0.05);
+    const Audio shorter = set_duration(sound, 0.05);
     EXPECT_EQ(shorter.length(), 50u);
     EXPECT_EQ(shorter.samples[2 * 39], 1);
     EXPECT_LT(shorter.samples[99], 0.01f);
@@ -296,7 +296,7 @@ TEST_F(Soundtracks, AreAsTheyAreWithoutACut) {
     const Soundtrack track = finished(25);
     EXPECT_EQ(track.sound->length(), 2500u);
     EXPECT_EQ(track.sound->samples[1999], 0.0001f * 1999);
-    EXPECT_FALSE(picture_decides(job_));
+    EXPECT_FALSE(picture_sets_length(job_));
 }
 
 TEST_F(Soundtracks, AreNoneInASilentClip) {
@@ -311,7 +311,7 @@ TEST_F(Soundtracks, HaveTheirOwnCutOfEachVoice) {
             {.motion = kMotion, .voice = folder_ / "a.wav", .voice_cut = Cut{.begin = begin}});
     job_.performers.erase(job_.performers.begin());
     const Soundtrack track = finished(10);
-    EXPECT_TRUE(picture_decides(job_));
+    EXPECT_TRUE(picture_sets_length(job_));
     EXPECT_EQ(track.voices[0].samples[100], 0.0001f * 600);
     EXPECT_EQ(track.voices[1].samples[100], 0.0001f * 1100);
     EXPECT_EQ(track.sound->length(), 1000u);

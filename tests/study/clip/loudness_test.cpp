@@ -164,16 +164,16 @@ TEST_F(FullScale, PicturesHoldNoSoundAndSaySo) {
 
 TEST(BringTo, MakesSpeechAsLoudAsAsked) {
     for (const double target : {-23.0, -30.0}) {
-        const LoudSound loud = bring_to(read_audio(kSpeech), target);
+        const LoudSound loud = normalize_loudness(read_audio(kSpeech), target);
         EXPECT_NEAR(integrated(loud.sound), target, 0.01);
         EXPECT_EQ(loud.warning, "");
     }
     const Audio stereo = stereo_tone(-40, 3);
-    EXPECT_NEAR(integrated(bring_to(stereo, -23).sound), -23, 0.1);
+    EXPECT_NEAR(integrated(normalize_loudness(stereo, -23).sound), -23, 0.1);
 }
 
 TEST(BringTo, IsOneGainForTheWholeSound) {
-    const Audio before = read_audio(kSpeech), after = bring_to(before, -30).sound;
+    const Audio before = read_audio(kSpeech), after = normalize_loudness(before, -30).sound;
     const float gain = after.samples[20000] / before.samples[20000];
     for (std::size_t i = 0; i < before.samples.size(); ++i)
         ASSERT_NEAR(after.samples[i], gain * before.samples[i], 1e-6) << i;
@@ -183,7 +183,7 @@ TEST(BringTo, StopsBelowTheHighestPeakAndSaysSo) {
     // A quiet tone with one loud click.
     Audio sound = sine({.seconds = 5, .peak = 0.001});
     sound.samples[1000] = 0.5f;
-    const LoudSound loud = bring_to(sound, -23);
+    const LoudSound loud = normalize_loudness(sound, -23);
     const Loudness after = measure_loudness(loud.sound);
     EXPECT_NEAR(after.true_peak, -1, 0.01);
     EXPECT_LT(after.integrated.value(), -30);
@@ -195,7 +195,7 @@ TEST(BringTo, StopsBelowTheHighestPeakAndSaysSo) {
 
 TEST(BringTo, LeavesSilenceAlone) {
     const Audio silence = sine({.peak = 0});
-    const LoudSound loud = bring_to(silence, -23);
+    const LoudSound loud = normalize_loudness(silence, -23);
     EXPECT_EQ(loud.sound.samples, silence.samples);
     EXPECT_EQ(
         loud.warning,

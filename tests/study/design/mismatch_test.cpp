@@ -24,16 +24,16 @@ std::vector<SpokenClip> clips_of(const std::vector<double>& lengths, const std::
     return clips;
 }
 
-bool may_lend(const SpokenClip& a, const SpokenClip& b, double tolerance) {
+bool may_be_paired(const SpokenClip& a, const SpokenClip& b, double tolerance) {
     return a.speaker == b.speaker &&
            std::abs(a.seconds - b.seconds) <= tolerance * std::max(a.seconds, b.seconds) + 1e-9;
 }
 
-bool is_mismatch(const std::vector<SpokenClip>& clips, const std::vector<std::size_t>& lenders,
+bool is_mismatch(const std::vector<SpokenClip>& clips, const std::vector<std::size_t>& partners,
                  double tolerance) {
-    if (std::set(lenders.begin(), lenders.end()).size() != clips.size()) return false;
+    if (std::set(partners.begin(), partners.end()).size() != clips.size()) return false;
     for (std::size_t i = 0; i < clips.size(); ++i)
-        if (lenders[i] == i || !may_lend(clips[i], clips[lenders[i]], tolerance)) return false;
+        if (partners[i] == i || !may_be_paired(clips[i], clips[partners[i]], tolerance)) return false;
     return true;
 }
 
@@ -88,7 +88,7 @@ TEST(DrawMismatch, DrawsEachThatThereIsSoonerOrLater) {
     std::map<std::vector<std::size_t>, int> drawn;
     for (std::uint64_t seed = 0; seed < 900; ++seed) ++drawn[draw_mismatch(clips, {.seed = seed})];
     EXPECT_EQ(drawn.size(), 9u);
-    for (const auto& [lenders, times] : drawn) EXPECT_GT(times, 30);
+    for (const auto& [partners, times] : drawn) EXPECT_GT(times, 30);
 }
 
 TEST(DrawMismatch, IsTheSameForTheSameSeed) {
@@ -121,7 +121,7 @@ TEST(DrawMismatch, NamesAClipThatHasNobody) {
         "add clips of this speaker, since no tolerance helps");
 }
 
-// Both could borrow from the second alone.
+// Both could be paired with the second alone.
 TEST(DrawMismatch, NamesClipsThatCompete) {
     EXPECT_EQ(refusal_of([] {
                   draw_mismatch(clips_of({9, 9.9, 10.9}), {});

@@ -190,7 +190,7 @@ TEST(ParticipantSessions, FreesTheSheetOfWhoIsSilentButLetsThemComeBack) {
     sessions.begin_as("c");
     sessions.begin_as("d");
     sessions.now += kTimeout / 2;
-    for (const char* name : {"b", "c", "d"}) sessions.begin_as(name);  // signs of life
+    for (const char* name : {"b", "c", "d"}) sessions.begin_as(name);  // all are active again
     sessions.now += kTimeout / 2 + 1;
     EXPECT_EQ(sessions.begin_as("new").body["sheet"], 0) << "the sheet of who is gone";
     EXPECT_EQ(sessions.begin_as("gone").body["session"], gone.body["session"]);
