@@ -170,12 +170,12 @@ Table contrasts_table(const TableSource& of) {
     return table;
 }
 
-// One part of a group without bounds won all against the rest; often that is one condition.
+// In a group without bounds some conditions won every comparison with the rest; often that is one condition.
 const char* bounded_text(const EloTable& elo, const EloRow& row) {
     if (elo.finite) return "yes";
     if (row.won_all) return "no: won all";
     if (row.lost_all) return "no: lost all";
-    return "no: some won all against the rest";
+    return "no: some conditions won every comparison with the rest";
 }
 
 Table elo_table(const TableSource& of) {

@@ -136,8 +136,8 @@ void require_answered_checks(const JsonValue& checks, const Plan& plan) {
         if (question.optional)
             checks.refuse(format(
                 "expects an answer to \"{}\", which is optional, so that a participant who leaves it open would "
-                "neither pass nor fail; remove \"optional\" from it, or give it other answers than the first question that checks ask "
-                "for",
+                "neither pass nor fail; remove \"optional\" from it, or give it a set of answers that differs from "
+                "that of the first question that checks ask for",
                 question.id));
         const bool is_asked = std::ranges::any_of(plan.passes, [&](const PagePass& pass) {
             return std::ranges::find(pass.questions, i) != pass.questions.end();

@@ -193,8 +193,8 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         {{"render", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
         {{"render", "--animation", "1", "--out", "a.mp4"}, "--motion, --face or --avatar is required"},
         {{"render", "--face", "a.csv", "--animation", "1", "--out", "a.mp4"},
-         "--animation: is of --motion or of the avatar's own file, but --face moves the avatar; leave one of "
-         "them out"},
+         "--animation: cannot be combined with --face: it names an animation of --motion or of the avatar's own "
+         "file; leave one of them out"},
         {{"render", "--avatar", "a.glb", "--hands", "hidden", "--out", "a.mp4"},
          "--hands: needs --motion or --face"},
         {{"render", "--avatar", "a.glb", "--up", "z", "--out", "a.mp4"}, "--up: needs --motion or --face"},
@@ -204,7 +204,7 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         {{"render", "--face", "f.csv", "--out", "a.mp4", "--face-head", "off"},
          "\"off\" is none of add, keep, replace"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--gl", "egl", "--renderer", "tiles"},
-         "--gl: is known to --renderer gl alone"},
+         "--gl: works with --renderer gl alone"},
         {{"study", "build", "p.json", "--out", "o", "--seed", ""}, "--seed: \"\" is no seed"},
         {{"study", "build", "p.json", "--out", "o", "--seed", "-1"}, "--seed: \"-1\" is no seed"},
         {{"study", "build", "p.json", "--out", "o", "--seed", "1.5"}, "\"1.5\" is no seed; write a whole"},
@@ -234,7 +234,7 @@ TEST(ParseCommandLine, SaysWhatIsWrongAndExitsWithTwo) {
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--renderer", "rays", "--motion-blur", "2"},
          "--motion-blur"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--samples", "4"},
-         "--samples and --motion-blur: are known to --renderer rays alone"},
+         "--samples and --motion-blur: work with --renderer rays alone"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--up", "w"}, "w"},
         {{"render", "--motion", "a.bvh", "--out", "a.mp4", "--motion-fps", "-1"},
          "\"-1\" is no frame rate; write a number above 0 such as 15"},

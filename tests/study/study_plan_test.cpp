@@ -476,8 +476,8 @@ TEST_F(StudyPlan, RefusesAttentionChecksThatNobodyNeedAnswer) {
     EXPECT_EQ(
         refusal_with({{"questions", {open}}, {"checks", {{"count", 1}}}}),
         "plan.json: checks: expects an answer to \"natural\", which is optional, so that a participant who leaves "
-        "it open would neither pass nor fail; remove \"optional\" from it, or give it other answers than the first "
-        "question that checks ask for");
+        "it open would neither pass nor fail; remove \"optional\" from it, or give it a set of answers that "
+        "differs from that of the first question that checks ask for");
     EXPECT_THAT(refusal_with({{"questions", {kRating, same}}, {"checks", {{"count", 1}}}}),
                 HasSubstr("checks: expects an answer to \"same\", which is optional"));
     same["points"] = 5;

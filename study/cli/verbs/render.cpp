@@ -23,8 +23,8 @@ void check_source_of_movement(const CLI::App& verb, const PeopleOptions& people,
     if (!plays_own_animation(job.performers.front())) {
         if (people.has("--animation") && job.performers.front().motion.empty())
             throw CLI::ValidationError("--animation",
-                                       "is of --motion or of the avatar's own file, but --face "
-                                       "moves the avatar; leave one of them out");
+                                       "cannot be combined with --face: it names an animation of --motion "
+                                       "or of the avatar's own file; leave one of them out");
         return;
     }
     if (!people.has("--avatar")) throw CLI::RequiredError("--motion, --face or --avatar");
@@ -235,10 +235,10 @@ void check_drawing(const CLI::App& verb, RendererKind& chosen) {
     const bool by_gl = verb.count("--gl") > 0;
     if (by_gl && verb.count("--renderer") == 0) chosen = RendererKind::gl;
     if (by_gl && chosen != RendererKind::gl)
-        throw CLI::ValidationError("--gl", "is known to --renderer gl alone");
+        throw CLI::ValidationError("--gl", "works with --renderer gl alone");
     const bool by_rays = verb.count("--samples") > 0 || verb.count("--motion-blur") > 0;
     if (by_rays && chosen != RendererKind::rays)
-        throw CLI::ValidationError("--samples and --motion-blur", "are known to --renderer rays alone");
+        throw CLI::ValidationError("--samples and --motion-blur", "work with --renderer rays alone");
 }
 
 // The command of options that fit together.

@@ -335,7 +335,7 @@ void add_synth(CLI::App& app, std::optional<Command>& result) {
             throw CLI::ValidationError("--gesture", "shows gestures without speech; leave out --speech");
         if (command->learned.content_of && (!job.script.empty() || job.recording))
             throw CLI::ValidationError("--content-of",
-                                       "is in place of speech and text; leave one of both out");
+                                       "is in place of speech and text; leave one of the two out");
         result = *command;
     });
 }

@@ -382,7 +382,7 @@ TEST(TablesOf, StrengthsWithoutBoundSayWhoWonAllAndHaveNoInterval) {
         if (table.id != "elo") continue;
         const Json rows = to_json(table);
         EXPECT_EQ(rows[0]["bounded"], "no: won all");
-        EXPECT_EQ(rows[1]["bounded"], "no: some won all against the rest");
+        EXPECT_EQ(rows[1]["bounded"], "no: some conditions won every comparison with the rest");
         EXPECT_EQ(rows[2]["bounded"], "no: lost all");
         for (const Json& row : rows) EXPECT_EQ(row["elo_low"], Json()) << row;
     }
