@@ -1,4 +1,4 @@
-// Parameters of a participant's link.
+// Parameters of a participant's link, and the names in them.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "core/files/json.h"
+#include "core/text.h"
+#include "synth/markup/letters.h"
 
 namespace chironomia::study {
 
@@ -13,6 +15,11 @@ namespace chironomia::study {
 // "{{%PROLIFIC_PID%}}" (Prolific), "${e://Field/PROLIFIC_PID}" (Qualtrics). It names nobody.
 inline bool is_unfilled(std::string_view value) {
     return value.starts_with("{{%") || value.starts_with("${e://");
+}
+
+// A name without the blanks around it, and with its accents composed (NFC): people whose names look alike are one.
+inline std::string plain_name(std::string_view name) {
+    return composed(trim(name));
 }
 
 // Whether one of the parameters is so: an object of texts.

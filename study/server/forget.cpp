@@ -10,6 +10,7 @@
 #include "core/files/json.h"
 #include "core/files/json_depth.h"
 #include "core/text.h"
+#include "study/record/link_parameters.h"
 #include "study/record/pages.h"
 #include "study/record/study_folder.h"
 #include "study/server/answer_store.h"
@@ -37,9 +38,12 @@ bool is_of(const Json& answers, const std::string& study) {
 }
 
 bool is_named(const Json& answers, const std::string& name) {
+    const auto is_name = [&](const Json& text) {
+        return text.is_string() && plain_name(text.get_ref<const std::string&>()) == plain_name(name);
+    };
     const Json arrived = answers.value("arrived_with", Json());
-    return answers.value("participant", Json()) == name ||
-           (arrived.is_object() && arrived.value("PROLIFIC_PID", Json()) == name);
+    return is_name(answers.value("participant", Json())) ||
+           (arrived.is_object() && is_name(arrived.value("PROLIFIC_PID", Json())));
 }
 
 enum class Held { nothing, others, the_participant };

@@ -70,7 +70,7 @@ Json parameters_of(const Json& body) {
 
 // The text at a key that names somebody, or "" if there is none.
 std::string name_at(const Json& object, const char* key) {
-    const std::string name = text_at(object, key);
+    const std::string name = plain_name(text_at(object, key));
     return is_unfilled(name) ? "" : name;
 }
 

@@ -101,12 +101,19 @@ TEST(ParticipantSessions, GivesSheetsInTurn) {
 TEST(ParticipantSessions, KnowsWhoComesBackByTheirProlificId) {
     TestSessions sessions;
     const Json first = {{"participant", "x"}, {"arrived_with", {{"PROLIFIC_PID", "5f"}}}};
-    const Json again = {{"participant", "y"}, {"arrived_with", {{"PROLIFIC_PID", "5f"}}}};
+    const Json again = {{"participant", "y"}, {"arrived_with", {{"PROLIFIC_PID", " 5f"}}}};
     sessions.begin_as("other");
     const Reply begun = sessions.begin(first);
     sessions.answer(begun.body["session"], 0, sessions.entry(1, 0));
     EXPECT_EQ(without_pages(sessions.begin(again).body),
               Json::parse(R"({"session": "s-2", "sheet": 1, "answered": 1, "finished": false})"));
+}
+
+// Letters and accents may be one character or two.
+TEST(ParticipantSessions, KnowsWhoComesBackHoweverTheirNameIsComposed) {
+    TestSessions sessions;
+    EXPECT_EQ(sessions.begin_as("\u00c9ric").body["session"], "s-1");
+    EXPECT_EQ(sessions.begin_as("E\u0301ric").body["session"], "s-1");
 }
 
 // ?p=wave1&PROLIFIC_PID=...: the link gives all of a wave one `p`.
