@@ -384,9 +384,50 @@ const PagePass& pass_of(const ParticipantSource& of, const PageAnswer& answer) {
                passes.size() == 1 ? "1 pass" : format("{} passes", passes.size())));
 }
 
+// Other videos, or others on the left, would be answers to something else.
+void require_on_sheet(const ParticipantSource& of, const std::vector<Step>& steps, const PageAnswer& answer) {
+    const KeyPage& page = of.key.pages[answer.page];
+    const auto video_at = [&](const std::vector<std::size_t>& order, std::size_t place) {
+        return place < order.size() && order[place] < page.places.size() ? page.places[order[place]].video
+                                                                         : "";
+    };
+    const auto tokens = [&](const std::vector<std::size_t>& order, std::size_t count) {
+        std::vector<std::string> shown;
+        for (std::size_t place = 0; place < count; ++place) shown.push_back(video_at(order, place));
+        return shown;
+    };
+    std::string fault = format("is answered, but sheet {} does not show it", of.participant.sheet);
+    for (const Step& step : steps) {
+        if (step.page != answer.page || step.pass != answer.pass) continue;
+        // One video that shows all places stands once on the sheet.
+        const auto on_sheet = tokens(step.order, step.order.size()),
+                   given = tokens(answer.order, step.order.size());
+        if (given == on_sheet) return;
+        fault = format("has the videos {} from left to right, but sheet {} shows {}", join(given),
+                       of.participant.sheet, join(on_sheet));
+    }
+    throw Error(format("{}: participant {}: page \"{}\" {}; give the answers to this build of the study",
+                       of.participant.file, of.participant.name, page.token, fault));
+}
+
+void require_asked(const ParticipantSource& of, const PagePass& pass, const PageAnswer& answer) {
+    for (const auto& [id, value] : answer.values.items()) {
+        const bool is_asked = std::ranges::any_of(pass.questions, [&, &name = id](std::size_t asked) {
+            return of.key.questions[asked].id == name;
+        });
+        if (is_asked) continue;
+        throw Error(format(
+            "{}: participant {}: pass {} of page \"{}\" has the value {} for \"{}\", which it does not "
+            "ask; remove it, or give the answers to this build of the study",
+            of.participant.file, of.participant.name, answer.pass, of.key.pages[answer.page].token,
+            value.dump(), id));
+    }
+}
+
 // The answers of the last rater.
 void join_participant(Dataset& data, const ParticipantSource& of, Uncounted& uncounted) {
     std::vector<double> seconds;
+    const std::vector<Step> steps = steps_of_sheet(of.pages, of.participant.sheet);
     for (std::size_t trial = 0; trial < of.participant.answers.size(); ++trial) {
         const PageAnswer& answer = of.participant.answers[trial];
         const KeyPage& page = of.key.pages[answer.page];
@@ -400,6 +441,8 @@ void join_participant(Dataset& data, const ParticipantSource& of, Uncounted& unc
                            .answer = answer,
                            .participant = data.raters.size() - 1,
                            .trial = trial};
+        require_on_sheet(of, steps, answer);
+        require_asked(of, join.pass, answer);
         join_one(data, join, uncounted);
         if (answer.seconds) seconds.push_back(*answer.seconds);
     }

@@ -141,8 +141,9 @@ std::string label_of(const Dataset& data, std::vector<std::size_t> conditions);
 // a sheet shows: people who lack answers of it have not finished, and a note says so.
 // A question that several passes ask is one for each of them, "natural-pass-2", and so is a scale of such questions.
 // A note names questions of which neither the key nor the layout says whether they name a side.
-// Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist, or an answer at the end
-// fits no question.
+// Throws Error if an answer is to a pass, or a participant had a sheet, that does not exist, if the sheet does not show
+// a page that is answered, or shows its videos in another order, if a pass does not ask what is answered, or an answer
+// at the end fits no question.
 Dataset join_answers(const StudyKey& key, const StudyPages& pages,
                      const std::vector<Respondent>& participants);
 

@@ -53,7 +53,8 @@ PageAnswer answer_of(std::size_t page, std::vector<std::size_t> order, Json valu
 // The only sheet shows the pages that were answered.
 StudyPages with_sheet_of(StudyPages pages, const std::vector<PageAnswer>& answers) {
     Sheet sheet;
-    for (const PageAnswer& answer : answers) sheet.pages.push_back({.page = answer.page, .order = {0, 1}});
+    for (const PageAnswer& answer : answers)
+        sheet.pages.push_back({.page = answer.page, .order = answer.order});
     pages.sheets = {sheet};
     return pages;
 }
