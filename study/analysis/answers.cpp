@@ -107,9 +107,10 @@ PageAnswer read_page_answer(const JsonValue& value, const StudyKey& key) {
 std::string read_name(const JsonValue& value) {
     if (!value.json().is_string()) return value.text();  // refuses it
     const auto& name = value.json().get_ref<const std::string&>();
+    const std::string one_form = plain_name(name);
     const bool plain =
-        std::none_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-    if (plain && !trim(name).empty()) return name;
+        std::none_of(one_form.begin(), one_form.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+    if (plain && !one_form.empty()) return one_form;
     return value.json().dump(-1, ' ', true);
 }
 
@@ -146,9 +147,9 @@ std::string known_as(const JsonValue& value) {
     const auto arrived = value.find("arrived_with");
     if (!arrived || !arrived->json().is_object()) return "";
     const auto found = arrived->json().find("PROLIFIC_PID");
-    if (found == arrived->json().end() || !found->is_string() || is_unfilled(found->get<std::string>()))
-        return "";
-    return found->get<std::string>();
+    if (found == arrived->json().end() || !found->is_string()) return "";
+    const std::string name = plain_name(found->get_ref<const std::string&>());
+    return is_unfilled(name) ? "" : name;
 }
 
 void refuse_twice(std::map<std::string, std::string>& seen, const std::string& name, const std::string& what,
@@ -252,6 +253,18 @@ std::vector<std::string> notes_on(const AnswersFolder& inside, const fs::path& f
     return notes;
 }
 
+// The same answers would count twice, by whichever path their file is named.
+void refuse_files_twice(const std::vector<fs::path>& files) {
+    std::map<fs::path, fs::path> seen;
+    for (const fs::path& file : files) {
+        std::error_code unknown;
+        const auto [before, is_new] = seen.emplace(fs::weakly_canonical(file, unknown), file);
+        if (!is_new && !unknown)
+            throw Error(format("{}: is the same file as {}, which is named before it; name each file once",
+                               file.string(), before->second.string()));
+    }
+}
+
 void refuse_mixture(const std::vector<Respondent>& participants) {
     const auto simulated = std::count_if(participants.begin(), participants.end(),
                                          [](const Respondent& each) { return each.simulated; });
@@ -282,6 +295,7 @@ AnswerFiles files_of_answers(const std::vector<fs::path>& paths) {
         answers.files.insert(answers.files.end(), inside.files.begin(), inside.files.end());
         for (std::string& note : notes_on(inside, path)) answers.notes.push_back(std::move(note));
     }
+    refuse_files_twice(answers.files);
     return answers;
 }
 

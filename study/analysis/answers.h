@@ -31,7 +31,7 @@ struct AnswerFiles {
 };
 
 // The files that `paths` name: themselves, or all .json and .csv files in a folder, by name.
-// Throws Error if one is missing or a folder has none.
+// Throws Error if one is missing, a folder has none, or a file is named twice.
 AnswerFiles files_of_answers(const std::vector<std::filesystem::path>& paths);
 
 // Throws Error if a folder for results holds answers: tables beside them would be read as answers later.
@@ -39,6 +39,7 @@ void refuse_folder_of_answers(const std::filesystem::path& results);
 
 // All participants of all files; a file holds one of "chironomia answers 2" or a list of them. Of several files that a
 // visit left while it went on, each the beginning of the next, the last one counts.
+// Names are in one form (plain_name(), link_parameters.h).
 // Throws Error, naming the file and the key, if an answer is not of this study, has an unknown page, video,
 // question or reason, or a value off the scale of its question; if a participant, or a pass of a page, comes
 // twice; or if only some participants are simulated.

@@ -15,6 +15,7 @@
 #include "study/analysis/simulated_rater.h"
 #include "study/record/answer_values.h"
 #include "study/record/failed_checks.h"
+#include "study/record/link_parameters.h"
 
 namespace chironomia::study::analysis {
 namespace {
@@ -87,6 +88,8 @@ class Battle {
 
     [[noreturn]] void refuse(const std::string& what) const { throw Error(table_.at(row_) + what); }
 
+    std::size_t line() const { return row_.line; }
+
     std::string at(const std::string& column) const {
         const auto found = std::find(table_.columns.begin(), table_.columns.end(), column);
         if (found == table_.columns.end()) refuse(format("there is no column \"{}\"; add it", column));
@@ -108,7 +111,13 @@ class Battle {
                                   return each.is_string();
                               });
         if (!is_texts) refuse(format("juiceOptions is \"{}\", a JSON list of texts is needed", text));
-        return list.get<std::vector<std::string>>();
+        const auto reasons = list.get<std::vector<std::string>>();
+        std::set<std::string> named;
+        for (const std::string& reason : reasons) {
+            if (!named.insert(reason).second)
+                refuse(format("juiceOptions names \"{}\" twice; name each reason once", reason));
+        }
+        return reasons;
     }
 
   private:
@@ -135,13 +144,17 @@ int steps_of(const Battle& battle) {
 }
 
 std::size_t voter_of(Dataset& data, const Battle& battle, const std::string& file) {
-    data.simulated = data.simulated || battle.at("user").starts_with(kSimulatedRaters);
-    const std::size_t participant = rater_named(data, battle.at("user"), file);
+    const std::string user = plain_name(battle.at("user"));
+    if (user.empty())
+        battle.refuse(
+            "user is empty, and votes of several people would count as those of one; write who voted");
+    data.simulated = data.simulated || user.starts_with(kSimulatedRaters);
+    const std::size_t participant = rater_named(data, user, file);
     if (data.raters[participant].file != file) {
         battle.refuse(
             format("\"{}\" voted in {} too; give the votes of each participant once, and those on another "
                    "question by themselves",
-                   battle.at("user"), data.raters[participant].file));
+                   user, data.raters[participant].file));
     }
     return participant;
 }
@@ -201,7 +214,17 @@ void read_lines(const fs::path& file, const Add& add) {
     const std::string text = read_text(file);
     require_utf8(file, text);
     const CsvTable table = parse_csv_table(text, file.string(), {.has_comments = false});
-    for (const CsvRow& row : table.rows) add(Battle(table, row));
+    std::map<std::vector<std::string_view>, std::size_t> lines;
+    for (const CsvRow& row : table.rows) {
+        const Battle battle(table, row);
+        add(battle);
+        const auto [before, is_new] = lines.emplace(row.cells, row.line);
+        if (!is_new)
+            battle.refuse(format(
+                "is the same as line {}; remove one of them, or if they are two votes, add a column in "
+                "which they differ, such as their times",
+                before->second));
+    }
 }
 
 // Lines of battles.csv about a study: its names of conditions, or tokens.
@@ -221,10 +244,16 @@ class BattlesOfStudy {
         }
         if (preferences.empty())
             throw Error(format("{}: the study asks for no preference; give the answers of this study", file));
+        for (const std::size_t preference : preferences) {
+            const Question& question = key.questions[preference];
+            if (question.answers.size() > finest_.answers.size()) finest_ = question;
+            has_middle_ = has_middle_ || question.answers.size() % 2 == 1;
+        }
         judged_ = key.questions[preferences.front()];
         asked_ = preferences.size() == 1 ? judged_ : preference_question();
         // A line answers one question, whatever else a check asks.
         for (StudyPage& page : pages_.pages) {
+            votes_on_page_.push_back(votes_of(page));
             for (PagePass& pass : page.passes) pass.questions = {preferences.front()};
         }
     }
@@ -233,10 +262,12 @@ class BattlesOfStudy {
         const Side left = side_named(battle, "model_a"), right = side_named(battle, "model_b");
         const KeyPage* page = page_of(battle, left, right);
         const std::size_t participant = voter_of(data_, battle, file);
-        answers_.resize(data_.raters.size());
+        voters_.resize(data_.raters.size());
+        require_on_scale(battle);
         if (page && page->kind == PageKind::practice) return;
+        note_page(battle, participant, page, left);
         if (page && page->kind == PageKind::check) {
-            answers_[participant].push_back(answer_to(battle, *page, left));
+            voters_[participant].checks.push_back(answer_to(battle, *page, left));
             return;
         }
         if (left.condition == right.condition)
@@ -253,15 +284,25 @@ class BattlesOfStudy {
     }
 
     Dataset finish() {
-        bool any_checks = false;
-        for (std::size_t i = 0; i < answers_.size(); ++i) {
-            any_checks = any_checks || !answers_[i].empty();
-            data_.raters[i].answered += answers_[i].size();
-            data_.raters[i].failed = failed_checks(key_, pages_, answers_[i]);
+        const bool any_checks =
+            std::ranges::any_of(voters_, [](const Voter& voter) { return !voter.checks.empty(); });
+        std::size_t unknown = 0;
+        for (std::size_t i = 0; i < voters_.size(); ++i) {
+            data_.raters[i].answered += voters_[i].checks.size();
+            data_.raters[i].failed = failed_checks(key_, pages_, voters_[i].checks);
+            const std::optional<bool> finished = has_finished(voters_[i], any_checks);
+            data_.raters[i].finished = finished.value_or(true);
+            unknown += !finished;
         }
         for (const KeyCondition& condition : data_.conditions) data_.cells.push_back(condition.name);
         if (!any_checks)
-            data_.notes.push_back("These files have no attention checks of the study: nobody is excluded.");
+            data_.notes.push_back(
+                "These files have no attention checks of the study: nobody is excluded for failing one.");
+        if (unknown > 0)
+            data_.notes.push_back(format(
+                "Whether {} finished is not known, because their lines do not name the videos of a sheet of the "
+                "study: they count as if they had.",
+                unknown == 1 ? "1 participant" : format("{} participants", unknown)));
         return std::move(data_);
     }
 
@@ -287,6 +328,14 @@ class BattlesOfStudy {
             column, name));
     }
 
+    // What the lines of a rater show.
+    struct Voter {
+        std::vector<PageAnswer> checks;
+        std::vector<Showing> shown;
+        std::map<std::size_t, std::vector<std::size_t>> lines;  // by page
+        bool names_videos = true;                               // in each line
+    };
+
     // None where conditions are named.
     const KeyPage* page_of(const Battle& battle, const Side& left, const Side& right) const {
         if (left.video.empty() || right.video.empty()) return nullptr;
@@ -307,11 +356,72 @@ class BattlesOfStudy {
         return found == key_.clips.end() ? code : *found;
     }
 
+    // How many lines a participant may have on a page: one for each pass that asks which of two is preferred.
+    std::size_t votes_of(const StudyPage& page) const {
+        const auto asks = [&](const PagePass& pass) {
+            return std::ranges::any_of(pass.questions, [&](std::size_t asked) {
+                return key_.questions[asked].kind == QuestionKind::preference;
+            });
+        };
+        return static_cast<std::size_t>(std::ranges::count_if(page.passes, asks));
+    }
+
+    void require_on_scale(const Battle& battle) const {
+        const int steps = steps_of(battle), most = static_cast<int>(finest_.answers.size()) / 2;
+        if (std::abs(steps) > most)
+            battle.refuse(
+                format("is_strong is \"True\", but \"{}\" has {} answers, none of them stronger than "
+                       "another; \"False\" is needed, or nothing",
+                       finest_.id, finest_.answers.size()));
+        if (steps == 0 && !has_middle_)
+            battle.refuse(
+                format("winner is \"{}\", but \"{}\" has {} answers, none of them in the middle; "
+                       "model_a or model_b is needed",
+                       battle.at("winner"), finest_.id, finest_.answers.size()));
+    }
+
+    // Which places stood left and right.
+    static std::vector<std::size_t> order_on(const KeyPage& page, const Side& left) {
+        if (page.places.front().video == left.video) return {0, 1};
+        return {1, 0};
+    }
+
+    void note_page(const Battle& battle, std::size_t participant, const KeyPage* page, const Side& left) {
+        Voter& voter = voters_[participant];
+        voter.names_videos = voter.names_videos && page;
+        if (!page) return;
+        const auto index = static_cast<std::size_t>(page - key_.pages.data());
+        std::vector<std::size_t>& lines = voter.lines[index];
+        if (lines.size() >= std::max<std::size_t>(votes_on_page_[index], 1))
+            battle.refuse(format("\"{}\" voted on page \"{}\" in line {} already; remove one of the two",
+                                 data_.raters[participant].name, page->token, lines.back()));
+        lines.push_back(battle.line());
+        voter.shown.push_back({.page = index, .order = order_on(*page, left)});
+    }
+
+    // Nothing where no sheet shows all that was voted on. Checks are needed where the files have any.
+    std::optional<bool> has_finished(const Voter& voter, bool with_checks) const {
+        if (!voter.names_videos) return std::nullopt;
+        std::optional<bool> finished;
+        for (const Sheet& sheet : pages_.sheets) {
+            const bool shows_all = std::ranges::all_of(voter.shown, [&](const Showing& shown) {
+                return std::ranges::find(sheet.pages, shown) != sheet.pages.end();
+            });
+            if (!shows_all) continue;
+            const bool is_whole = std::ranges::all_of(sheet.pages, [&](const Showing& needed) {
+                const PageKind kind = key_.pages[needed.page].kind;
+                const bool counts = kind == PageKind::trial || (kind == PageKind::check && with_checks);
+                return !counts || votes_on_page_[needed.page] == 0 || voter.lines.contains(needed.page);
+            });
+            finished = finished.value_or(false) || is_whole;
+        }
+        return finished;
+    }
+
     // The answer with these steps from equal. Battles know two steps, so that further ones are taken as the expected
     // answer of that side.
     PageAnswer answer_to(const Battle& battle, const KeyPage& page, const Side& left) const {
-        std::vector<std::size_t> order = {0, 1};
-        if (page.places.front().video != left.video) std::swap(order.front(), order.back());
+        const std::vector<std::size_t> order = order_on(page, left);
         const int steps = steps_of(battle);
         const int count = static_cast<int>(judged_.answers.size()), half = count / 2;
         int answer = count % 2 == 1 ? half + 1 - steps : steps > 0 ? 1 : steps < 0 ? 2 : 0;
@@ -331,9 +441,12 @@ class BattlesOfStudy {
     const StudyKey& key_;
     StudyPages pages_;
     Dataset data_;
-    Question judged_;                               // by attention checks
-    Question asked_;                                // of the votes; of several preferences none says which
-    std::vector<std::vector<PageAnswer>> answers_;  // to attention checks, of each rater
+    Question judged_;          // by attention checks
+    Question asked_;           // of the votes; of several preferences none says which
+    Question finest_;          // the preference with most answers
+    bool has_middle_ = false;  // any preference has
+    std::vector<std::size_t> votes_on_page_;
+    std::vector<Voter> voters_;  // of each rater
 };
 
 // Of a page of HEMVIP: which conditions stood there, and what was said of each.
@@ -343,10 +456,6 @@ struct HemvipTrial {
     std::vector<std::string> stimuli;
     std::vector<Json> scores;
 };
-
-bool is_check(const std::string& stimulus) {
-    return stimulus == "at" || stimulus.find("attn") != std::string::npos;
-}
 
 void add_hemvip_pair(Dataset& data, const HemvipTrial& trial, const JsonValue& value) {
     if (trial.stimuli.size() != 2)
@@ -402,7 +511,7 @@ std::size_t add_hemvip_trial(Dataset& data, const JsonValue& value, std::size_t 
         if (is_token(trial.stimuli.back()))
             response.at("stimulus").refuse("is " + token_refusal(trial.stimuli.back()));
         trial.scores.push_back(as_number(response.at("score").json()));
-        if (is_check(trial.stimuli.back())) return 1;
+        if (marks_check(trial.stimuli.back(), type == "videopc")) return 1;
         if (type == "videopc" && trial.scores.back() == kBroken) return 1;
     }
     ++data.raters[participant].answered;
@@ -422,15 +531,25 @@ void read_hemvip(Dataset& data, const fs::path& file) {
         if (value.find("format"))
             value.at("format").refuse(format("is {}: give the folder of the study whose answers these are",
                                              value.at("format").shown()));
-        const std::string user = value.at("userId").text();
+        const std::string user = user_of(value);
         for (const Rater& rater : data.raters) {
             if (rater.name == user)
                 value.at("userId").refuse(format(
                     "\"{}\" is already in {}; give the answers of each participant once", user, rater.file));
         }
         const std::size_t participant = rater_named(data, user, file.string());
-        for (const JsonValue& trial : value.at("trials").items(0))
+        std::map<std::string, std::string> answered;  // by the page where it is
+        for (const JsonValue& trial : value.at("trials").items(0)) {
+            const std::size_t before = data.raters[participant].answered;
             left_out += add_hemvip_trial(data, trial, participant);
+            if (data.raters[participant].answered == before) continue;
+            const auto [first, is_new] = answered.emplace(trial.at("id").text(), trial.key());
+            if (!is_new)
+                trial.refuse(
+                    format("page \"{}\" is answered a second time, first in {}; remove one answer, or give "
+                           "two pages names of their own",
+                           first->first, first->second));
+        }
     }
     if (left_out > 0)
         data.notes.push_back(format("{}: {} pages are checks or were reported as broken, and are left out.",
@@ -454,7 +573,8 @@ Dataset read_foreign_answers(const std::vector<fs::path>& files) {
         }
     }
     for (const KeyCondition& condition : data.conditions) data.cells.push_back(condition.name);
-    data.notes.push_back("These files do not say which checks were failed: nobody is excluded.");
+    data.notes.push_back(
+        "These files do not say which checks were failed, nor who did not finish: nobody is excluded.");
     return data;
 }
 

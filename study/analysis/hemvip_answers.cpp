@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "core/files/files.h"
-#include "core/files/json_value.h"
 #include "core/text.h"
 #include "study/record/answer_values.h"
+#include "study/record/link_parameters.h"
 
 namespace chironomia::study::analysis {
 namespace {
@@ -140,7 +140,7 @@ Json questionnaire_of(const JsonValue& whole, const StudyPages& pages) {
 }
 
 Respondent read_participant(const JsonValue& whole, const SourceOfHemvip& source, const fs::path& file) {
-    Respondent participant{.name = whole.at("userId").text(), .file = file.string(), .finished = true};
+    Respondent participant{.name = user_of(whole), .file = file.string(), .finished = true};
     std::vector<HemvipPage> answered;
     for (const JsonValue& trial : whole.at("trials").items(0)) {
         const std::string type = trial.at("type").text();
@@ -167,6 +167,24 @@ Json as_number(const Json& value) {
     if (!value.is_string()) return value;
     const Json number = Json::parse(value.get<std::string>(), nullptr, false);
     return number.is_number() ? number : value;
+}
+
+bool marks_check(std::string_view stimulus, bool is_pair) {
+    if (stimulus == "at") return true;
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    const std::string_view mark = is_pair ? "attn" : "attn_check_";
+    for (std::size_t at = stimulus.find(mark); at != stimulus.npos; at = stimulus.find(mark, at + 1)) {
+        const char before = at == 0 ? ' ' : stimulus[at - 1];
+        const std::size_t end = at + mark.size();
+        const char next = end < stimulus.size() ? stimulus[end] : ' ';
+        if (is_pair ? !is_letter(before) && !is_letter(next) : is_digit(next)) return true;
+    }
+    return false;
+}
+
+std::string user_of(const JsonValue& whole) {
+    return plain_name(whole.at("userId").text());
 }
 
 bool is_of_hemvip(const fs::path& file) {

@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/files/json.h"
+#include "core/files/json_value.h"
 #include "study/analysis/answers.h"
 #include "study/record/key.h"
 #include "study/record/pages.h"
@@ -18,6 +20,14 @@ bool is_of_hemvip(const std::filesystem::path& file);
 
 // The value of a slider or of a number, which a browser may have as a text; anything else as it is.
 Json as_number(const Json& value);
+
+// Whether the name of a stimulus marks an attention check, as on HEMVIP's pages: "at"; on the branch genea2022
+// "attn_check_40" among sliders (lib/webmushra/pages/VideoPage.js), and "attn" in pairs (VideoPC.js). There it is
+// sought anywhere in the name. Here it is a word of its own, because systems may be called "attngan".
+bool marks_check(std::string_view stimulus, bool is_pair);
+
+// Who answered, in one form (plain_name(), link_parameters.h). Throws Error if it is no text or empty.
+std::string user_of(const JsonValue& whole);
 
 struct HemvipAnswers {
     std::vector<Respondent> participants;

@@ -492,7 +492,9 @@ TEST(AnalyseCli, SaysWhatIsWrong) {
     const TemporaryFolder folder;
     ASSERT_EQ(rehearse(folder).exit_code, 0);
     const std::string study = (folder / "study").string(), answers = (folder / "answers.json").string();
-    const Outcome twice = run_chironomia({"study", "analyse", study, "--answers", answers, answers});
+    std::filesystem::copy_file(answers, folder / "copy.json");
+    const Outcome twice =
+        run_chironomia({"study", "analyse", study, "--answers", answers, (folder / "copy.json").string()});
     EXPECT_EQ(twice.exit_code, 3);
     EXPECT_THAT(twice.err, HasSubstr("participant \"simulated-1\" is already in"));
     EXPECT_THAT(twice.err, HasSubstr("if these are two people, as of two waves, rename one of them"));

@@ -341,8 +341,9 @@ TEST_F(HemvipAnswers, InBattlesMayNameConditionsByTheirTokens) {
                                 clip_token(key, "c0"), ours, baseline));
     const Outcome outcome = analyse();
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_THAT(outcome.out,
-                HasSubstr("These files have no attention checks of the study: nobody is excluded."));
+    EXPECT_THAT(
+        outcome.out,
+        HasSubstr("These files have no attention checks of the study: nobody is excluded for failing one."));
     EXPECT_EQ(strict()["preferences"][0]["wins"], 2);
     EXPECT_THAT(read_text(folder_ / "out/battles.csv"), HasSubstr("u1,c0,ours,baseline,model_a,True"));
 }
