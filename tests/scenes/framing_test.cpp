@@ -39,8 +39,11 @@ TEST(MeasureFigure, LooksPastAPropThatIsLoose) {
     Avatar figure = stick_figure(1.7f);
     figure.surfaces[0].joint = figure.humanoid[HumanJoint::hips];
     Avatar beside = figure;
-    beside.surfaces.push_back(
-        {.name = "pillar", .positions = {{0, -3, 0}, {0, 9, 0}, {0.1f, 0, 0}}, .triangles = {0, 1, 2}});
+    Surface pillar;
+    pillar.joint = 0;
+    pillar.positions = {{0, -3, 0}, {0, 9, 0}, {0.1f, 0, 0}};
+    pillar.normals.resize(3, Vec3(0, 0, 1));
+    beside.surfaces.push_back(pillar);
     const FigureMeasures expected = measure_figure(figure), found = measure_figure(beside);
     EXPECT_EQ(found.floor, expected.floor);
     EXPECT_EQ(found.top, expected.top);
