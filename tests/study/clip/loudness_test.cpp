@@ -247,7 +247,7 @@ TEST(Soundtrack, NamesTheFileThatIsSilent) {
     job.loudness = -23;
     Soundtrack track = read_soundtrack(job);
     finish(track, job, 60, {.first = 0, .last = 60});
-    EXPECT_THAT(track.warnings, ::testing::ElementsAre(HasSubstr("still.wav: the sound is silent")));
+    EXPECT_THAT(track.warnings, ::testing::ElementsAre(HasSubstr("still.wav: the sound is never louder than -70 LUFS")));
 }
 
 }  // namespace
