@@ -31,7 +31,7 @@ void add_study_rehearse(CLI::App& study, std::optional<Command>& result) {
     add_read_option(
         *verb, "--prefer",
         [command](const std::string& text) { command->job.strengths = parse_strengths(text); },
-        "Preference strength of conditions in logits (a difference of 1 means odds of 2.7) [0 each]")
+        "Preference strength of conditions in logits (a difference of 1 is felt with odds of 2.7) [0 each]")
         ->type_name("NAME=X,...");
     verb->add_option("--spread", job.spread,
                      "How much raters differ: sd of each condition's strength between them, in logits [0.3]")
