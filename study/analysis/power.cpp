@@ -120,7 +120,8 @@ Drawn draw_answers(const PowerDesign& design, std::size_t participants, Random& 
     return {};
 }
 
-// The same of the sum of signed shares, which is nearly normal.
+// The p of sign_flip_test() by the normal approximation: with random signs the sum of the shares has mean 0 and the sum
+// of their squares as variance.
 double flip_p_of_many(const Drawn& drawn, double sum) {
     double squares = 0;
     for (std::size_t i = 0; i < drawn.votes.size(); ++i) {

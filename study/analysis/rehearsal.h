@@ -23,10 +23,10 @@ struct RehearsalJob {
 };
 
 // A list of "chironomia answers 2" with "simulated": true. Respondent n takes sheet n modulo their number.
-//   Preferences: the first is preferred where s1 - s2 + noise > 0. The noise is logistic, so that strengths 1 apart
-//   are felt with odds of e. Each participant adds a normal number of standard deviation `spread` to each condition, so that
-//   participants differ by 1.4 times as much about two conditions. Within 0.4 of 0 both are equal; from 1.5 on
-//   the answer is clear, and each 1.1 more is one answer further out, as far as the question has them.
+//   Preferences: the first is preferred where s1 - s2 + noise > 0. The noise is logistic, so that strengths 1 apart are
+//   felt with odds of e. Each participant adds a normal number of standard deviation `spread` to each condition, so
+//   that participants differ by 1.4 times as much about two conditions. Within 0.4 of 0 both are equal; from 1.5 on the
+//   answer is clear, and each 1.1 more is one answer further out, as far as the question has them.
 //   Scores: the middle of the scale, and a sixth of its width for each 1 of strength, rounded to the scale. Normal
 //   noise has a standard deviation of a sixth of the width, and of a third of `spread` for each participant and
 //   condition.

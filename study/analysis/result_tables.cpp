@@ -183,12 +183,12 @@ Table elo_table(const TableSource& of) {
         .id = "elo",
         .title = "Strengths on the scale of Elo",
         .note =
-            "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one (2 for each step"
-            " from equal), 1 to either for a tie; all votes of a group count, also those between a condition and what"
-            " is made of it, but a group of two such has a share instead; 1000 is the mean of a group; 200 more are "
-            "preferred in 76 % of votes where a question has two answers, and in another share where it has ties or "
-            "clear answers; intervals of 95 % from resampled participants, who are taken as independent; an end that "
-            "more than 2.5 % of the resamples leave without bound is a dash; the clips are taken as given",
+            "Bradley-Terry by weighted logistic regression, 4 for a clear answer, 2 for a slight one (2 for each "
+            "step from equal), 1 to either for a tie; all votes of a group count, also those between a condition and "
+            "what is made of it, but a group of two such has a share instead; 1000 is the mean of a group; 200 more "
+            "are preferred in 76 % of votes where a question has two answers, and in another share where it has ties "
+            "or clear answers; intervals of 95 % from resampled participants, who are taken as independent; an end "
+            "that more than 2.5 % of the resamples leave without bound is a dash; the clips are taken as given",
         .columns = {{"question", "question"},
                     {"group", "group", Show::whole},
                     {"condition", "condition"},
